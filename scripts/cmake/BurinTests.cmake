@@ -1,0 +1,63 @@
+# burin_add_test(NAME SOURCES … LIBRARIES … [LABELS …] [TIMEOUT seconds]): a GoogleTest program, one
+# CTest entry per program (start-up dominates; run one case with --gtest_filter).
+#
+# Label "sanitize" puts a test into the subset that runs under address and undefined-behaviour
+# sanitizers; target sanitize_tests builds exactly those programs.
+function(burin_add_test name)
+  cmake_parse_arguments(arg "" "TIMEOUT" "SOURCES;LIBRARIES;LABELS" ${ARGN})
+  burin_test_program(${name} SOURCES ${arg_SOURCES} LABELS ${arg_LABELS}
+                     LIBRARIES ${arg_LIBRARIES} GTest::gtest_main)
+  add_test(NAME ${name} COMMAND ${name})
+  burin_set_test(${name} TIMEOUT ${arg_TIMEOUT} LABELS ${arg_LABELS})
+endfunction()
+
+# burin_add_mpi_test(NAME RANKS 1 2 3 … SOURCES … LIBRARIES … [LABELS …] [TIMEOUT seconds]): a
+# GoogleTest program with the MPI main of tests/support, one CTest entry per rank count. Every rank
+# runs every case; a failure on any rank fails the entry. It counts as two processors, so that a
+# machine with two cores runs one at a time.
+function(burin_add_mpi_test name)
+  cmake_parse_arguments(arg "" "TIMEOUT" "RANKS;SOURCES;LIBRARIES;LABELS" ${ARGN})
+  burin_test_program(${name} SOURCES ${arg_SOURCES} LABELS ${arg_LABELS}
+                     LIBRARIES ${arg_LIBRARIES} burin::test_mpi_main GTest::gtest)
+  foreach(ranks ${arg_RANKS})
+    add_test(NAME ${name}_${ranks} COMMAND ${BURIN_MPIRUN} -n ${ranks} $<TARGET_FILE:${name}>)
+    burin_set_test(${name}_${ranks} TIMEOUT ${arg_TIMEOUT} PROCESSORS 2 LABELS ${arg_LABELS} mpi)
+  endforeach()
+endfunction()
+
+# What both kinds of test programs have in common.
+function(burin_test_program name)
+  cmake_parse_arguments(arg "" "" "SOURCES;LIBRARIES;LABELS" ${ARGN})
+  add_executable(${name} ${arg_SOURCES})
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+  target_link_libraries(${name} PRIVATE
+    ${arg_LIBRARIES} burin::test_support GTest::gmock burin_warnings)
+  if("sanitize" IN_LIST arg_LABELS)
+    add_dependencies(sanitize_tests ${name})
+  endif()
+endfunction()
+
+# burin_set_test(NAME [TIMEOUT seconds] [PROCESSORS n] [LABELS …]): what every CTest entry needs:
+# a time-out (60 seconds if none is given) and the environment.
+function(burin_set_test name)
+  cmake_parse_arguments(arg "" "TIMEOUT;PROCESSORS" "LABELS" TIMEOUT 60 PROCESSORS 1 ${ARGN})
+  set_tests_properties(${name} PROPERTIES TIMEOUT ${arg_TIMEOUT} PROCESSORS ${arg_PROCESSORS}
+    LABELS "${arg_LABELS}" ENVIRONMENT "${BURIN_TEST_ENVIRONMENT}")
+endfunction()
+
+add_custom_target(sanitize_tests)
+
+# More ranks than cores, none of them bound to one; and for containers: root allowed, no reading of
+# another process's memory, no complaints where /sys is missing.
+set(BURIN_MPIRUN ${MPIEXEC_EXECUTABLE} -q --oversubscribe --bind-to none
+    --mca btl_vader_single_copy_mechanism none)
+set(BURIN_TEST_DATA ${CMAKE_SOURCE_DIR}/../shared/data CACHE PATH
+    "Folder of real volumes for the tests that want some; they skip where it is absent")
+set(BURIN_TEST_ENVIRONMENT
+    OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 HWLOC_HIDE_ERRORS=2
+    BURIN_TEST_DATA=${BURIN_TEST_DATA})
+if(BURIN_SANITIZE)
+  list(APPEND BURIN_TEST_ENVIRONMENT
+    LSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/tests/support/lsan.supp:print_suppressions=0
+    UBSAN_OPTIONS=print_stacktrace=1)
+endif()
