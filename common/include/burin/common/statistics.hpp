@@ -1,0 +1,71 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace burin {
+
+/// The phases of a frame, in order. Names are those of the `--stats` contract.
+enum class Phase { kUpdate, kDraw, kComposite, kGather, kFinish, kWrite, kCount };
+const char* phaseName(Phase phase);
+
+struct PhaseTimes {
+  double ms[static_cast<int>(Phase::kCount)] = {};
+  double& operator[](Phase phase) { return ms[static_cast<int>(phase)]; }
+  double operator[](Phase phase) const { return ms[static_cast<int>(phase)]; }
+};
+
+/// What one rank did in one frame. Trivially copyable: ranks send it as bytes.
+struct RankStatistics {
+  std::int32_t rank = 0;
+  std::int32_t bricks = 0;
+  PhaseTimes phases;
+  std::int64_t samplesVisited = 0;  ///< volume fetched at a lattice point; 0 if not counted
+  std::int64_t samplesShaded = 0;   ///< extinction > 0
+  std::int64_t samplesInOccupiedCells = 0;
+  std::int64_t leaps = 0;
+  std::int64_t bytesSent = 0;
+  std::int64_t bytesReceived = 0;
+  std::int64_t messagesSent = 0;
+  std::int64_t activePixels = 0;
+  std::int64_t residentVoxelBytes = 0;
+  std::int64_t peakRssBytes = 0;
+};
+
+struct FrameStatistics {
+  double frameMs = 0;  ///< from "camera known" to "finished image in rank 0's memory"
+  PhaseTimes phases;   ///< rank 0's view: what the user waits for
+  std::vector<RankStatistics> ranks;
+};
+
+struct RunStatistics {
+  int ranks = 1;
+  bool samplesCounted = false;
+  std::vector<FrameStatistics> frames;
+};
+
+/// The `--stats` document. Sample counters are absent when they were not counted.
+std::string statisticsJson(const RunStatistics& run);
+
+/// Largest resident set this process has had so far, from the kernel.
+std::int64_t peakResidentBytes();
+
+/// Adds the time of its scope to a phase.
+class PhaseTimer {
+ public:
+  explicit PhaseTimer(double& ms) : ms_{ms}, start_{std::chrono::steady_clock::now()} {}
+  ~PhaseTimer() {
+    ms_ += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_)
+               .count();
+  }
+  PhaseTimer(const PhaseTimer&) = delete;
+  PhaseTimer& operator=(const PhaseTimer&) = delete;
+
+ private:
+  double& ms_;
+  std::chrono::steady_clock::time_point start_;
+};
+
+}  // namespace burin
