@@ -1,0 +1,138 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "burin/common/camera.hpp"
+#include "burin/common/style.hpp"
+#include "burin/common/transfer_function.hpp"
+
+namespace burin {
+
+/// Largest side of a picture, in pixels; llvmpipe's largest target.
+inline constexpr int kLargestImageSide = 16384;
+/// Smallest distance of sample planes, in multiples of the smallest spacing.
+inline constexpr double kSmallestStepVoxels = 1e-3;
+/// Most sample planes across a volume: single precision tells them and their middles apart.
+inline constexpr double kMostPlanes = 0x1p22;
+/// Most points of a curve; each is code in the ray-cast program.
+inline constexpr std::size_t kMostCurvePoints = 64;
+/// Largest number of lights, of layers and of clip planes.
+inline constexpr int kMostListed = 16;
+
+/// Where the voxels come from: a file, or a procedural kind with its dims. The raw* keys are needed
+/// only for bare raw files whose name does not say them. A scene without a volume (both empty) is a
+/// look waiting for one.
+struct VolumeChoice {
+  std::string file;        ///< as written; relative to the scene file
+  std::string procedural;  ///< e.g. "vessels"; at most one of the two is set
+  std::optional<glm::ivec3> dims;
+  std::optional<std::string> type;    ///< "u8", "i16", "u16", "f32"
+  std::optional<std::string> endian;  ///< "little", "big"
+  std::optional<glm::dvec3> spacing;
+  friend bool operator==(const VolumeChoice&, const VolumeChoice&) = default;
+};
+
+/// As written in the scene: either orbit angles (or a named view), or eye / target / up.
+struct CameraChoice {
+  double azimuthDeg = 30;
+  double elevationDeg = 20;
+  std::optional<std::string> view;     ///< anterior posterior left right superior inferior
+  std::optional<glm::dvec3> eye;       ///< world; then target and up count, the angles do not
+  std::optional<glm::dvec3> target;    ///< with eye only; unset: the volume's centre
+  std::optional<glm::dvec3> upVector;  ///< with eye only; unset: upAxis
+  std::string upAxis = "auto";         ///< "auto", "y", "z"
+  double verticalFovDeg = 30;
+  double zoom = 1;
+  Projection projection = Projection::kPerspective;
+  friend bool operator==(const CameraChoice&, const CameraChoice&) = default;
+};
+
+struct Light {
+  glm::dvec3 direction{0.3, 0.4, 0.86};  ///< points TO the light; need not be unit
+  bool eyeSpace = true;                  ///< eye space: x right, y up, z to the viewer; else world
+  Colour colour{255, 255, 255};
+  double intensity = 1;
+  friend bool operator==(const Light&, const Light&) = default;
+};
+
+struct Layer {
+  std::string name;
+  TransferFunction transferFunction;
+  std::vector<StyleSettings> styles;  ///< in the order of styleTable(), each at most once
+
+  /// nullptr when the layer does not use that style.
+  const StyleSettings* style(std::string_view styleName) const;
+  friend bool operator==(const Layer&, const Layer&) = default;
+};
+
+/// Keeps a·x + d >= 0, world units; need not be normalised.
+struct ClipPlane {
+  glm::dvec3 normal{1, 0, 0};
+  double offset = 0;
+  friend bool operator==(const ClipPlane&, const ClipPlane&) = default;
+};
+
+struct Quality {
+  double stepVoxels = 0.5;
+  double termination = 0.002;  ///< rays end when transmittance < termination; 0: never
+  friend bool operator==(const Quality&, const Quality&) = default;
+};
+
+struct Scene {
+  VolumeChoice volume;
+  CameraChoice camera;
+  ImageSize imageSize{1024, 1024};
+  std::optional<Colour> background = Colour{255, 255, 255};  ///< unset: transparent
+  std::vector<Light> lights = std::vector<Light>(1);  ///< g++ 12 warns falsely of a braced Light{}
+  std::vector<Layer> layers;
+  std::vector<ClipPlane> clip;
+  Quality quality;
+  friend bool operator==(const Scene&, const Scene&) = default;
+};
+
+/// Parses and validates scene text (JSON, comments allowed). `name` is how messages call it.
+/// `overrides`: "layers.0.style.tone.strength=0.5"; applied to the JSON before validation; the
+/// value is JSON, or a bare word taken as a string; null removes the key. Throws Error{kUsage}:
+/// "name:line:column: path: …", or "--set …: path: …" for what an override brought.
+Scene parseScene(std::string_view text, std::string_view name,
+                 const std::vector<std::string>& overrides = {});
+
+/// The scene as JSON; parseScene(writeScene(s)) == s exactly for every scene that parseScene can
+/// return. What the scene cannot say is not written: angles beside a view or an eye.
+std::string writeScene(const Scene& scene);
+
+/// Reads a scene file; a relative volume.file is made relative to the file's folder.
+Scene loadScene(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
+
+/// Facts of the volume that a scene refers to.
+struct VolumeFacts {
+  VolumeGrid grid;
+  bool anatomical = false;  ///< world is LPS
+};
+
+/// Fills what depends on the volume: opacity unit lengths. Idempotent. Throws Error{kUsage} if the
+/// step puts kMostPlanes planes or more into the volume.
+void resolveScene(Scene& scene, const VolumeFacts& volume);
+
+/// The camera in world space. `extraAzimuthDeg` is added to the azimuth (--orbit), or turns an
+/// explicit eye about the target.
+Camera resolveCamera(const Scene& scene, const VolumeFacts& volume, double extraAzimuthDeg = 0);
+
+/// Unit world direction to the light.
+glm::dvec3 lightDirectionWorld(const Light& light, const Camera& camera);
+
+/// Largest ghost width that any layer's styles declare, 0 if none needs neighbours.
+int ghostLayersNeeded(const Scene& scene);
+/// Whether any layer needs gradients.
+bool gradientNeeded(const Scene& scene);
+
+/// JSON Schema (draft 2020-12) of the scene file: the text of configs/schema.json.
+std::string sceneSchemaJson();
+
+}  // namespace burin

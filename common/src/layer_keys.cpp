@@ -1,0 +1,89 @@
+#include "layer_keys.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace burin::scene_io {
+
+namespace {
+
+Codec<TransferPoint> pointCodec() {
+  using P = TransferPoint;
+  return object<P>({required(field("value", "Value in data units", &P::value, number(kAnyNumber))),
+                    required(field("color", "Colour there (sRGB)", &P::colour, colour())),
+                    required(field("opacity", "Opacity there, per opacity unit length", &P::opacity,
+                                   number({.minimum = 0, .maximum = 1})))});
+}
+
+void checkPoints(const At& at, const TransferFunction& function) {
+  const auto& points = function.points;
+  const Node& list = *at.node.find("points");
+  const std::string path = json::childPath(at.path, "points");
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const At point = At{list, path}.item(i);
+    if (points[i].value < points[i - 1].value) {
+      point.fail("value {} is below {} of the point before; expected rising values",
+                 points[i].value, points[i - 1].value);
+    }
+    if (i >= 2 && points[i].value == points[i - 2].value) {
+      point.fail("third point at value {}; two make a step", points[i].value);
+    }
+  }
+}
+
+Codec<TransferFunction> transferFunctionCodec() {
+  using F = TransferFunction;
+  constexpr std::size_t kMostPoints = 4096;
+  return object<F>(
+      {required(field("points",
+                      "Points by rising value, linear between them; two at one value make a step",
+                      &F::points, list(pointCodec(), 1, kMostPoints))),
+       field("opacity_unit_length",
+             "World length that opacities refer to; default the smallest voxel spacing",
+             &F::opacityUnitLength, number(kPositive))},
+      checkPoints);
+}
+
+Codec<StyleSettings> settingsCodec(const StyleSpec& spec) {
+  using S = StyleSettings;
+  Fields<S> fields;
+  for (std::size_t i = 0; i < spec.parameters.size(); ++i) {
+    const ParameterSpec& p = spec.parameters[i];
+    const std::string help =
+        p.unit.empty() ? std::string{p.help} : fmt::format("{}; {}", p.help, p.unit);
+    fields.push_back(field<S, ParameterValue>(
+        p.name, help, parameter(p), [i](const S& s) { return std::optional{s.values[i]}; },
+        [i](S& s, ParameterValue value) { s.values[i] = std::move(value); }));
+  }
+  return object<S>(std::move(fields), {}, defaultSettings(spec));
+}
+
+/// "style": a key for each style of the table. Reading in the table's order sorts the settings.
+Codec<std::vector<StyleSettings>> stylesCodec() {
+  using Styles = std::vector<StyleSettings>;
+  Fields<Styles> fields;
+  for (const StyleSpec& spec : styleTable()) {
+    fields.push_back(field<Styles, StyleSettings>(
+        spec.name, spec.help, settingsCodec(spec),
+        [name = spec.name](const Styles& styles) {
+          const auto found = std::find_if(styles.begin(), styles.end(),
+                                          [&](const StyleSettings& s) { return s.name == name; });
+          return found == styles.end() ? std::nullopt : std::optional{*found};
+        },
+        [](Styles& styles, StyleSettings value) { styles.push_back(std::move(value)); }));
+  }
+  return object<Styles>(std::move(fields));
+}
+
+}  // namespace
+
+Codec<Layer> layerCodec() {
+  using L = Layer;
+  return object<L>({field("name", "Name for people", &L::name, text()),
+                    required(field("transfer_function", "Colour and opacity by value",
+                                   &L::transferFunction, transferFunctionCodec())),
+                    field("style", "Effects on this layer; an empty entry has its defaults",
+                          &L::styles, stylesCodec())});
+}
+
+}  // namespace burin::scene_io

@@ -1,0 +1,126 @@
+#include "burin/common/scene.hpp"
+
+#include <algorithm>
+
+#include "burin/common/error.hpp"
+
+namespace burin {
+
+namespace {
+
+/// Where a named view looks from. World is LPS: x to the left, y to the back, z up; azimuth 0 is in
+/// front, 90 at the patient's left.
+struct View {
+  std::string_view name;
+  double azimuthDeg;
+  double elevationDeg;
+};
+constexpr View kViews[] = {{"anterior", 0, 0}, {"posterior", 180, 0}, {"left", 90, 0},
+                           {"right", -90, 0},  {"superior", 0, 90},   {"inferior", 0, -90}};
+
+const View& findView(std::string_view name) {
+  const auto* found = std::find_if(std::begin(kViews), std::end(kViews),
+                                   [&](const View& v) { return v.name == name; });
+  if (found == std::end(kViews)) fail(ExitCode::kUsage, "camera.view: '{}' is unknown", name);
+  return *found;
+}
+
+char resolvedUpAxis(const CameraChoice& choice, bool anatomical) {
+  if (choice.upAxis == "auto") return anatomical ? 'z' : 'y';
+  return choice.upAxis == "z" ? 'z' : 'y';
+}
+
+/// `offset` turned right-handed about `axis` (Rodrigues): like a growing azimuth about the up axis.
+glm::dvec3 turned(const glm::dvec3& offset, const glm::dvec3& axis, double degrees) {
+  const glm::dvec3 k = glm::normalize(axis);
+  const double angle = glm::radians(degrees);
+  return offset * std::cos(angle) + glm::cross(k, offset) * std::sin(angle) +
+         k * (glm::dot(k, offset) * (1 - std::cos(angle)));
+}
+
+Camera eyeCamera(const Scene& scene, const VolumeFacts& volume, double extraAzimuthDeg) {
+  const CameraChoice& choice = scene.camera;
+  const glm::dvec3 target = choice.target.value_or(volume.grid.centreWorld());
+  const glm::dvec3 axis =
+      resolvedUpAxis(choice, volume.anatomical) == 'z' ? glm::dvec3{0, 0, 1} : glm::dvec3{0, 1, 0};
+  const glm::dvec3 up = choice.upVector.value_or(axis);
+  glm::dvec3 eye = *choice.eye;
+  if (extraAzimuthDeg != 0) eye = target + turned(eye - target, up, extraAzimuthDeg);
+  return lookAtCamera(eye, target, up, choice.verticalFovDeg, choice.zoom, choice.projection,
+                      volume.grid, scene.imageSize);
+}
+
+bool needsGradient(const Layer& layer) {
+  return std::any_of(layer.styles.begin(), layer.styles.end(), [](const StyleSettings& s) {
+    const StyleSpec* spec = findStyle(s.name);
+    return spec != nullptr && spec->needsGradient;
+  });
+}
+
+}  // namespace
+
+const StyleSettings* Layer::style(std::string_view styleName) const {
+  const auto found = std::find_if(styles.begin(), styles.end(),
+                                  [&](const StyleSettings& s) { return s.name == styleName; });
+  return found == styles.end() ? nullptr : &*found;
+}
+
+void resolveScene(Scene& scene, const VolumeFacts& volume) {
+  for (Layer& layer : scene.layers) {
+    std::optional<double>& length = layer.transferFunction.opacityUnitLength;
+    if (!length) length = volume.grid.smallestSpacing();
+  }
+  const double planes =
+      2 * volume.grid.boundingRadius() / (scene.quality.stepVoxels * volume.grid.smallestSpacing());
+  if (!(planes < kMostPlanes)) {
+    fail(ExitCode::kUsage,
+         "quality.step_voxels: {} puts {:.3g} sample planes into the volume, expected fewer than "
+         "{:.3g}",
+         scene.quality.stepVoxels, planes, kMostPlanes);
+  }
+}
+
+Camera resolveCamera(const Scene& scene, const VolumeFacts& volume, double extraAzimuthDeg) {
+  const CameraChoice& choice = scene.camera;
+  if (choice.eye) return eyeCamera(scene, volume, extraAzimuthDeg);
+  OrbitParameters orbit{choice.azimuthDeg,
+                        choice.elevationDeg,
+                        choice.verticalFovDeg,
+                        choice.zoom,
+                        resolvedUpAxis(choice, volume.anatomical),
+                        choice.projection};
+  if (choice.view) {
+    const View& view = findView(*choice.view);
+    orbit.azimuthDeg = view.azimuthDeg;
+    orbit.elevationDeg = view.elevationDeg;
+    orbit.upAxis = 'z';  // the views' names are about LPS axes, whatever the file says
+  }
+  orbit.azimuthDeg += extraAzimuthDeg;
+  return orbitCamera(orbit, volume.grid, scene.imageSize);
+}
+
+glm::dvec3 lightDirectionWorld(const Light& light, const Camera& camera) {
+  const glm::dvec3& d = light.direction;
+  if (!light.eyeSpace) return glm::normalize(d);
+  return glm::normalize(d.x * camera.right + d.y * camera.up - d.z * camera.forward);
+}
+
+int ghostLayersNeeded(const Scene& scene) {
+  int needed = 0;
+  for (const Layer& layer : scene.layers) {
+    const bool gradient = needsGradient(layer);
+    for (const StyleSettings& settings : layer.styles) {
+      const StyleSpec* spec = findStyle(settings.name);
+      BURIN_CHECK(spec != nullptr);
+      // Mere settings widen the ghost layers only where a style makes use of them.
+      if (spec->hasSnippet || gradient) needed = std::max(needed, spec->ghostLayers);
+    }
+  }
+  return needed;
+}
+
+bool gradientNeeded(const Scene& scene) {
+  return std::any_of(scene.layers.begin(), scene.layers.end(), needsGradient);
+}
+
+}  // namespace burin

@@ -1,0 +1,159 @@
+#include "scene_keys.hpp"
+
+#include "camera_keys.hpp"
+#include "layer_keys.hpp"
+
+namespace burin::scene_io {
+
+namespace {
+
+constexpr std::size_t kMost = static_cast<std::size_t>(kMostListed);
+
+void forbid(const At& at, std::string_view key, std::string_view why) {
+  if (const Node* found = at.node.find(key)) {
+    At::failAt(found->where, json::childPath(at.path, key), why);
+  }
+}
+
+void checkVolume(const At& at, const VolumeChoice& volume) {
+  if (volume.file.empty() == volume.procedural.empty()) {
+    at.fail("expected exactly one of 'file' and 'procedural'");
+  }
+  if (volume.file.empty()) {
+    if (!volume.dims) at.fail("'dims' is missing beside 'procedural'");
+    forbid(at, "endian", "only a raw file has an endianness");
+  }
+}
+
+Codec<VolumeChoice> volumeCodec() {
+  using V = VolumeChoice;
+  const auto unlessEmpty = [](std::string V::*member) {
+    return [member](const V& v) {
+      return (v.*member).empty() ? std::nullopt : std::optional{v.*member};
+    };
+  };
+  const auto keep = [](std::string V::*member) {
+    return [member](V& v, std::string value) { v.*member = std::move(value); };
+  };
+  return object<V>(
+      {field<V, std::string>("file", "Volume file, relative to this file", text(),
+                             unlessEmpty(&V::file), keep(&V::file)),
+       field<V, std::string>("procedural",
+                             "Built-in volume instead of a file: marschner-lobb, shells, "
+                             "homogeneous, ramp, vessels or ct-phantom",
+                             text(), unlessEmpty(&V::procedural), keep(&V::procedural)),
+       field("dims", "Voxels along x, y and z: of a built-in volume, or of a bare raw file",
+             &V::dims, wholeNumbers3({.minimum = 1, .maximum = 1e6})),
+       field("type", "Voxel type: of a built-in volume, or of a bare raw file", &V::type,
+             word({"u8", "i16", "u16", "f32"})),
+       field("endian", "Byte order of a bare raw file", &V::endian, word({"little", "big"})),
+       field("spacing", "Distance of voxels along x, y and z, of a built-in volume or a raw file",
+             &V::spacing, vector3(kPositive))},
+      checkVolume);
+}
+
+Codec<Light> lightCodec() {
+  using L = Light;
+  return object<L>(
+      {field("direction", "Vector that points TO the light", &L::direction, direction()),
+       field<L, std::string>(
+           "space", "eye: x right, y up, z to the viewer; or world", word({"eye", "world"}),
+           [](const L& l) { return std::optional<std::string>{l.eyeSpace ? "eye" : "world"}; },
+           [](L& l, const std::string& value) { l.eyeSpace = value == "eye"; }),
+       field("color", "Colour of the light (sRGB)", &L::colour, colour()),
+       field("intensity", "Factor on the light's colour", &L::intensity,
+             number({.minimum = 0, .maximum = 100}))});
+}
+
+Codec<ClipPlane> clipCodec() {
+  using P = ClipPlane;
+  return object<P>({required(field<P, glm::dvec4>(
+      "plane", "[a, b, c, d]: keeps a·x + b·y + c·z + d ≥ 0, world units", clipPlaneVector(),
+      [](const P& p) {
+        return std::optional{glm::dvec4{p.normal, p.offset}};
+      },
+      [](P& p, const glm::dvec4& value) {
+        p.normal = glm::dvec3{value};
+        p.offset = value.w;
+      }))});
+}
+
+struct ImageChoice {
+  ImageSize size;
+  std::optional<Colour> background;
+};
+
+Codec<ImageChoice> imageCodec() {
+  using I = ImageChoice;
+  const Scene defaults;
+  return object<I>(
+      {field("size", "Width and height in pixels", &I::size, imageSize()),
+       field<I, std::optional<Colour>>(
+           "background", "Colour behind the volume (sRGB), or transparent", colourOrTransparent(),
+           [](const I& i) { return std::make_optional(i.background); },
+           [](I& i, const std::optional<Colour>& value) { i.background = value; })},
+      {}, ImageChoice{defaults.imageSize, defaults.background});
+}
+
+Codec<Quality> qualityCodec() {
+  using Q = Quality;
+  return object<Q>(
+      {field("step_voxels", "Distance of samples, in smallest voxel spacings", &Q::stepVoxels,
+             number({.minimum = kSmallestStepVoxels, .maximum = 100})),
+       field("termination", "Rays end when their transmittance falls below this; 0 is never",
+             &Q::termination, number({.minimum = 0, .maximum = 0.5}))});
+}
+
+constexpr double kVersion = 1;
+
+Field<Scene> schemaVersionField() {
+  Codec<double> version = number(kAnyNumber);
+  version.schema = {{"const", 1}};
+  version.read = [any = version.read](const At& at) {
+    const double written = any(at);
+    if (written != kVersion) at.fail("{} is unknown; this program reads {}", written, kVersion);
+    return written;
+  };
+  return required(field<Scene, double>(
+      "schema_version", "Version of this format", version,
+      [](const Scene&) { return std::optional{kVersion}; }, [](Scene&, double) {}));
+}
+
+Codec<Scene> makeSceneCodec() {
+  using S = Scene;
+  return object<S>(
+      {schemaVersionField(),
+       field<S, VolumeChoice>(
+           "volume", "Where the voxels come from", volumeCodec(),
+           [](const S& s) {
+             const bool none = s.volume.file.empty() && s.volume.procedural.empty();
+             return none ? std::nullopt : std::optional{s.volume};
+           },
+           [](S& s, VolumeChoice value) { s.volume = std::move(value); }),
+       field("camera", "Orbit angles or a named view of the whole volume, or eye, target and up",
+             &S::camera, cameraCodec()),
+       field<S, ImageChoice>(
+           "image", "The picture", imageCodec(),
+           [](const S& s) {
+             return std::optional{ImageChoice{s.imageSize, s.background}};
+           },
+           [](S& s, const ImageChoice& value) {
+             s.imageSize = value.size;
+             s.background = value.background;
+           }),
+       field("lights", "Directional lights; tone follows the first one", &S::lights,
+             list(lightCodec(), 1, kMost)),
+       required(field("layers", "What is drawn: simultaneous media, each with its own look",
+                      &S::layers, list(layerCodec(), 1, kMost))),
+       field("clip", "Planes that cut material away", &S::clip, list(clipCodec(), 0, kMost)),
+       field("quality", "Accuracy against time", &S::quality, qualityCodec())});
+}
+
+}  // namespace
+
+const Codec<Scene>& sceneCodec() {
+  static const Codec<Scene> codec = makeSceneCodec();
+  return codec;
+}
+
+}  // namespace burin::scene_io
