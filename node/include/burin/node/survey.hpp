@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "burin/common/communicator.hpp"
+#include "burin/common/geometry.hpp"
+#include "burin/node/brick_source.hpp"
+
+namespace burin::node {
+
+/// Voxels delivered by readSlabs: the part [box.lo, box.hi) of request number `request`.
+struct Slab {
+  std::size_t request;
+  IndexBox box;                       ///< voxels, spans the request's x and y, some of its z
+  std::span<const std::byte> voxels;  ///< native order, x fastest, laid out as `box`
+};
+
+/// Collective. Delivers the voxels of each of this rank's boxes in slabs of ascending z, so that no
+/// rank ever holds more than `slabBytes` (or one z slice) beside what the callback keeps. A source
+/// with random access is read by every rank itself; a stream is read once, by the root, which
+/// scatters. A failure anywhere (a read or a callback) ends in CollectiveError on all ranks.
+/// Boxes are voxel boxes inside the volume and may be empty or overlap those of other ranks.
+void readSlabs(const Communicator& comm, BrickSource& source, std::span<const IndexBox> boxes,
+               const std::function<void(const Slab&)>& deliver,
+               std::size_t slabBytes = std::size_t{32} << 20);
+
+/// Smallest and largest finite value of each block of kBlockCells³ cells on the global cell grid,
+/// shared faces included (block b covers voxels [b*kBlockCells, (b+1)*kBlockCells]).
+struct BlockRanges {
+  static constexpr int kBlockCells = 16;
+  glm::ivec3 blocks{0};
+  std::vector<float> lowest;   ///< +infinity for a block without finite voxels; data units
+  std::vector<float> highest;  ///< -infinity likewise
+  std::size_t index(const glm::ivec3& block) const;
+};
+
+/// Facts of the whole volume, the same on all ranks and for any number of ranks.
+struct VolumeSurvey {
+  double lowest = 0;  ///< of the finite voxels, data units; both 0 if there are none
+  double highest = 0;
+  std::int64_t nanCount = 0;
+  std::int64_t infiniteCount = 0;
+  double largestGradient = 0;  ///< of |∇f| in world units, central differences at the voxels
+  double gradient999 = 0;      ///< its 99.9th percentile (relative bin width 2^-10, upper edge)
+  BlockRanges blocks;
+};
+
+/// Collective. One pass over all voxels, split among the ranks by slabs; gradients only if asked
+/// for (central differences with neighbours clamped at the volume's border; NaN neighbours skip the
+/// voxel, infinities count as the nearest finite end).
+VolumeSurvey surveyVolume(const Communicator& comm, BrickSource& source, bool withGradients);
+
+}  // namespace burin::node

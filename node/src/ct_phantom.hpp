@@ -1,0 +1,12 @@
+#pragma once
+
+#include <glm/glm.hpp>
+
+namespace burin::node {
+
+/// A head as a CT scanner would see it, in Hounsfield units from -1024 to about 1700, all borders
+/// smooth: skin, fat, skull with orbits and a nose, eyes, brain with ventricles and a bright
+/// lesion. p in the unit cube: +y up, +z to the front, +x to the head's left.
+double ctPhantomHounsfield(const glm::dvec3& p);
+
+}  // namespace burin::node

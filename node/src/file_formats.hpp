@@ -1,0 +1,44 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "burin/node/brick_source.hpp"
+
+namespace burin::node {
+
+/// What is looked at to tell a file's format.
+struct FileStart {
+  std::string lowerName;         ///< file name in lower case, without folders
+  std::vector<std::byte> bytes;  ///< the first ones, inflated if the file is gzip; at most 1024
+  bool hasDims = false;          ///< the user gave dims, as for a bare raw file
+
+  bool nameEndsWith(std::string_view suffix) const { return lowerName.ends_with(suffix); }
+  bool startsWith(std::string_view text, std::size_t at = 0) const;
+};
+
+/// A file format: one reader, one line in the table.
+struct FileFormat {
+  std::string_view name;
+  std::string_view extensions;  ///< as messages list them
+  bool selfDescribing;          ///< false: takes dims, type and endian from the user
+  bool (*recognises)(const FileStart& start);
+  std::unique_ptr<BrickSource> (*open)(const VolumeChoice& choice);
+};
+
+/// In the order in which they are asked.
+std::span<const FileFormat> fileFormats();
+
+// The readers, one file each.
+bool recognisesNrrd(const FileStart& start);
+std::unique_ptr<BrickSource> openNrrd(const VolumeChoice& choice);
+bool recognisesNifti(const FileStart& start);
+std::unique_ptr<BrickSource> openNifti(const VolumeChoice& choice);
+bool recognisesRaw(const FileStart& start);
+std::unique_ptr<BrickSource> openRaw(const VolumeChoice& choice);
+
+}  // namespace burin::node

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "burin/node/brick_source.hpp"
+
+namespace burin::node {
+
+/// Counts of magnitudes in bins of relative width 2^-10: the sign, exponent and first ten mantissa
+/// bits of a float number the bins.
+class MagnitudeHistogram {
+ public:
+  MagnitudeHistogram();
+  void add(float magnitude);
+  /// For sums over ranks. The first entry counts exact zeros.
+  std::span<std::int64_t> counts() { return counts_; }
+  /// Upper edge of the bin below which `fraction` of all magnitudes lie; 0 if there are none or if
+  /// so many are exactly 0.
+  double percentile(double fraction) const;
+
+ private:
+  std::vector<std::int64_t> counts_;
+};
+
+/// Gradient magnitudes in world units, by central differences, of z slices that come in ascending
+/// order: those of the slices [firstZ, lastZ), whose neighbours come too.
+class GradientSurvey {
+ public:
+  /// Values are clamped to [lowest, highest], which takes infinities to the finite ends.
+  GradientSurvey(const VolumeInfo& info, int firstZ, int lastZ, float lowest, float highest);
+
+  /// Slice z, whole in x and y, of the source's type; z runs from max(firstZ - 1, 0) to
+  /// min(lastZ, dims.z - 1).
+  void addSlice(int z, std::span<const std::byte> voxels);
+
+  MagnitudeHistogram& histogram() { return histogram_; }
+  double largest() const;
+
+ private:
+  using Row = const float*;
+  std::vector<float>& slice(int z) { return slices_[static_cast<std::size_t>(z % 3)]; }
+  void measureSlice(int z);
+  void measureRow(Row here, Row yBelow, Row yAbove, Row zBelow, Row zAbove);
+
+  VoxelType type_;
+  glm::ivec3 dims_;
+  int firstZ_;
+  int lastZ_;
+  float lowest_;
+  float highest_;
+  glm::dmat3 metric_;  ///< |∇f|² = gᵀ·metric·g for differences g across two voxels
+  std::array<std::vector<float>, 3> slices_;
+  std::vector<double> squares_;  ///< one row's; NaN where the gradient is not defined
+  double largestSquare_ = 0;
+  MagnitudeHistogram histogram_;
+};
+
+}  // namespace burin::node

@@ -1,0 +1,161 @@
+#include <nifti2_io.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <memory>
+#include <string>
+
+#include "burin/common/error.hpp"
+#include "file_formats.hpp"
+#include "stored_voxels.hpp"
+
+namespace burin::node {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct FreeImage {
+  void operator()(nifti_image* image) const noexcept { nifti_image_free(image); }
+};
+using ImagePointer = std::unique_ptr<nifti_image, FreeImage>;
+
+/// Magic words of the two versions and where they stand: a single file, and a header with its
+/// voxels in a file of their own.
+bool hasMagic(const FileStart& start) {
+  using std::string_view_literals::operator""sv;
+  constexpr std::size_t kAt1 = 344;
+  constexpr std::size_t kAt2 = 4;
+  return start.startsWith("n+1\0"sv, kAt1) || start.startsWith("ni1\0"sv, kAt1) ||
+         start.startsWith("n+2\0"sv, kAt2) || start.startsWith("ni2\0"sv, kAt2);
+}
+
+/// The header that goes with the file the user named: of "head.img" it is "head.hdr".
+std::string headerName(const std::string& file) {
+  fs::path path{file};
+  if (path.extension() == ".img") path.replace_extension(".hdr");
+  return path.string();
+}
+
+/// The library looks for header and image under these names by opening them, which waits for ever
+/// if one is a FIFO. Throws if one is neither a file nor a folder.
+void checkCandidates(const fs::path& file) {
+  constexpr const char* kExtensions[] = {".hdr", ".img", ".nii", ".HDR", ".IMG", ".NII"};
+  fs::path base = file;
+  if (base.extension() == ".gz" || base.extension() == ".GZ") base.replace_extension();
+  if (std::ranges::find(kExtensions, base.extension()) != std::end(kExtensions))
+    base.replace_extension();
+  for (const char* extension : kExtensions) {
+    for (const char* packed : {"", ".gz", ".GZ"}) {
+      const fs::path candidate = base.string() + extension + packed;
+      if (fs::exists(candidate) && !fs::is_directory(candidate)) regularFileSize(candidate);
+    }
+  }
+}
+
+ImagePointer readHeader(const std::string& file) {
+  regularFileSize(headerName(file));
+  checkCandidates(file);
+  nifti_set_debug_level(0);  // its messages go to stderr; ours say what it would
+  ImagePointer image{nifti_image_read(headerName(file).c_str(), 0)};
+  if (image == nullptr) fail(ExitCode::kVolume, "{}: not a valid NIfTI header", file);
+  return image;
+}
+
+glm::ivec3 dimsOf(const std::string& name, const nifti_image& image) {
+  if (image.nt > 1 || image.nu > 1 || image.nv > 1 || image.nw > 1) {
+    fail(ExitCode::kVolume,
+         "{}: {} dimensions ({} x {} x {} x {} x {} ...; expected a volume with "
+         "3)",
+         name, image.ndim, image.nx, image.ny, image.nz, image.nt, image.nu);
+  }
+  return checkedDims(name, {image.nx, image.ny, image.nz});
+}
+
+VoxelType typeOf(const std::string& name, const nifti_image& image) {
+  switch (image.datatype) {
+    case NIFTI_TYPE_UINT8:
+      return VoxelType::kU8;
+    case NIFTI_TYPE_INT16:
+      return VoxelType::kI16;
+    case NIFTI_TYPE_UINT16:
+      return VoxelType::kU16;
+    case NIFTI_TYPE_FLOAT32:
+      return VoxelType::kF32;
+    default:
+      fail(ExitCode::kVolume, "{}: voxel type \"{}\" is not supported (expected {})", name,
+           nifti_datatype_string(image.datatype), supportedTypeNames());
+  }
+}
+
+/// The index-to-world matrix the file gives, in its own space (RAS): the sform, else the qform.
+/// Nothing if it gives neither: then, says the standard, "no particular spatial orientation".
+const nifti_dmat44* worldMatrix(const nifti_image& image) {
+  if (image.sform_code > 0) return &image.sto_xyz;
+  if (image.qform_code > 0) return &image.qto_xyz;
+  return nullptr;
+}
+
+void setOrientation(const nifti_image& image, VolumeInfo& info) {
+  const nifti_dmat44* toRas = worldMatrix(image);
+  info.anatomical = toRas != nullptr;
+  if (toRas == nullptr) {
+    info.grid.spacing = {std::abs(image.dx), std::abs(image.dy), std::abs(image.dz)};
+    return;
+  }
+  const glm::dvec3 turn{-1, -1, 1};  // RAS to LPS
+  for (int axis = 0; axis < 3; ++axis) {
+    const glm::dvec3 step{toRas->m[0][axis], toRas->m[1][axis], toRas->m[2][axis]};
+    info.grid.spacing[axis] = glm::length(step);
+    info.grid.direction[axis] = turn * step / info.grid.spacing[axis];
+  }
+  info.grid.origin = turn * glm::dvec3{toRas->m[0][3], toRas->m[1][3], toRas->m[2][3]};
+}
+
+StoredVoxels storedVoxels(const std::string& name, const nifti_image& image) {
+  if (image.iname == nullptr || !fs::exists(image.iname)) {
+    fail(ExitCode::kVolume, "{}: the file with the voxels is missing (expected {})", name,
+         image.iname == nullptr ? "an .img beside the header" : image.iname);
+  }
+  if (image.iname_offset < 0) {
+    fail(ExitCode::kVolume, "{}: voxel offset {} (expected at least 0)", name, image.iname_offset);
+  }
+  StoredVoxels stored;
+  stored.file = image.iname;
+  stored.type = typeOf(name, image);
+  const bool native = image.byteorder == nifti_short_order();
+  stored.bigEndian = native == (std::endian::native == std::endian::big);
+  const auto offset = static_cast<std::uint64_t>(image.iname_offset);
+  if (nifti_is_gzfile(image.iname) != 0) {
+    stored.encoding = StoredVoxels::Encoding::kGzip;
+    stored.streamOffset = offset;
+  } else {
+    stored.fileOffset = offset;
+  }
+  // NIfTI: a slope of 0 says that there is no scaling.
+  if (image.scl_slope != 0 && std::isfinite(image.scl_slope) && std::isfinite(image.scl_inter)) {
+    stored.slope = image.scl_slope;
+    stored.intercept = image.scl_inter;
+  }
+  return stored;
+}
+
+}  // namespace
+
+bool recognisesNifti(const FileStart& start) {
+  return hasMagic(start) || start.nameEndsWith(".nii") || start.nameEndsWith(".nii.gz") ||
+         start.nameEndsWith(".hdr") || start.nameEndsWith(".img");
+}
+
+std::unique_ptr<BrickSource> openNifti(const VolumeChoice& choice) {
+  const ImagePointer image = readHeader(choice.file);
+  VolumeInfo info;
+  info.name = choice.file;
+  info.format = "NIfTI";
+  info.grid.dims = dimsOf(choice.file, *image);
+  setOrientation(*image, info);
+  checkGrid(choice.file, info.grid);
+  return openStoredVoxels(std::move(info), storedVoxels(choice.file, *image));
+}
+
+}  // namespace burin::node

@@ -1,0 +1,119 @@
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstring>
+
+#include "burin/common/error.hpp"
+#include "burin/node/brick_source.hpp"
+#include "burin/node/procedural.hpp"
+#include "file_formats.hpp"
+#include "file_handle.hpp"
+#include "gzip_stream.hpp"
+#include "stored_voxels.hpp"
+
+namespace burin::node {
+namespace {
+
+constexpr std::size_t kStartBytes = 1024;
+
+constexpr std::array<FileFormat, 3> kFormats{{
+    {"NRRD", ".nrrd .nhdr", true, recognisesNrrd, openNrrd},
+    {"NIfTI", ".nii .nii.gz .hdr/.img", true, recognisesNifti, openNifti},
+    {"raw", ".raw .raw.gz", false, recognisesRaw, openRaw},
+}};
+
+std::vector<std::byte> inflatedStart(const std::filesystem::path& file) {
+  GzipStream stream{FileHandle{file}, 0};
+  std::vector<std::byte> bytes(kStartBytes);
+  bytes.resize(stream.readSome(bytes));
+  return bytes;
+}
+
+FileStart readStart(const VolumeChoice& choice) {
+  const std::filesystem::path file{choice.file};
+  regularFileSize(file);
+  FileStart start;
+  start.hasDims = choice.dims.has_value();
+  start.lowerName = file.filename().string();
+  std::ranges::transform(start.lowerName, start.lowerName.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  start.bytes.resize(kStartBytes);
+  start.bytes.resize(FileHandle{file}.readSome(0, start.bytes));
+  if (start.startsWith("\x1f\x8b")) start.bytes = inflatedStart(file);
+  return start;
+}
+
+const FileFormat& formatOf(const VolumeChoice& choice) {
+  const FileStart start = readStart(choice);
+  for (const FileFormat& format : kFormats) {
+    if (format.recognises(start)) return format;
+  }
+  std::string known;
+  for (const FileFormat& format : kFormats) {
+    known += fmt::format("{}{} ({})", known.empty() ? "" : ", ", format.name, format.extensions);
+  }
+  fail(ExitCode::kVolume, "{}: unknown file format (expected {}; any file with --dims and --type)",
+       choice.file, known);
+}
+
+/// A source whose header's spacing the user overrides.
+class RespacedSource : public BrickSource {
+ public:
+  RespacedSource(std::unique_ptr<BrickSource> inner, const glm::dvec3& spacing)
+      : inner_{std::move(inner)}, info_{inner_->info()} {
+    info_.grid.spacing = spacing;
+    checkGrid(info_.name, info_.grid, ExitCode::kUsage);
+  }
+  const VolumeInfo& info() const override { return info_; }
+  bool randomAccess() const override { return inner_->randomAccess(); }
+  void load(const IndexBox& region, std::span<std::byte> out) override {
+    inner_->load(region, out);
+  }
+
+ private:
+  std::unique_ptr<BrickSource> inner_;
+  VolumeInfo info_;
+};
+
+std::unique_ptr<BrickSource> openProcedural(const VolumeChoice& choice) {
+  if (!choice.dims) {
+    fail(ExitCode::kUsage, "procedural volume \"{}\": dims are missing (expected three numbers)",
+         choice.procedural);
+  }
+  VoxelType type = VoxelType::kF32;
+  if (choice.type) {
+    const auto named = voxelTypeFromName(*choice.type);
+    if (!named) {
+      fail(ExitCode::kUsage, "procedural volume \"{}\": unknown type \"{}\" (expected {})",
+           choice.procedural, *choice.type, supportedTypeNames());
+    }
+    type = *named;
+  }
+  return makeProcedural(choice.procedural, *choice.dims, type,
+                        choice.spacing.value_or(glm::dvec3{1}));
+}
+
+}  // namespace
+
+bool FileStart::startsWith(std::string_view text, std::size_t at) const {
+  return bytes.size() >= at + text.size() &&
+         std::memcmp(bytes.data() + at, text.data(), text.size()) == 0;
+}
+
+std::span<const FileFormat> fileFormats() {
+  return kFormats;
+}
+
+std::unique_ptr<BrickSource> openVolume(const VolumeChoice& choice) {
+  if (!choice.procedural.empty()) return openProcedural(choice);
+  const FileFormat& format = formatOf(choice);
+  if (format.selfDescribing && (choice.dims || choice.type || choice.endian)) {
+    fail(ExitCode::kUsage, "{}: dims, type and endian are for bare raw files; {} says them itself",
+         choice.file, format.name);
+  }
+  std::unique_ptr<BrickSource> source = format.open(choice);
+  if (!choice.spacing) return source;
+  return std::make_unique<RespacedSource>(std::move(source), *choice.spacing);
+}
+
+}  // namespace burin::node

@@ -1,0 +1,91 @@
+#include "raw_source.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "burin/common/error.hpp"
+#include "byte_order.hpp"
+
+namespace burin::node {
+namespace {
+
+void checkFileSize(const VolumeInfo& info, const StoredVoxels& stored) {
+  const std::uint64_t found = regularFileSize(stored.file);
+  const std::uint64_t expected = stored.fileOffset + info.bytes();
+  if (found < expected) {
+    fail(ExitCode::kVolume,
+         "{}: truncated: {} bytes found, {} expected ({} before the voxels, "
+         "{} x {} x {} voxels of {})",
+         stored.file.string(), found, expected, stored.fileOffset, info.grid.dims.x,
+         info.grid.dims.y, info.grid.dims.z, voxelTypeName(info.type));
+  }
+  if (stored.exactSize && found > expected) {
+    fail(ExitCode::kVolume, "{}: {} bytes found, {} expected for {} x {} x {} voxels of {}",
+         stored.file.string(), found, expected, info.grid.dims.x, info.grid.dims.y,
+         info.grid.dims.z, voxelTypeName(info.type));
+  }
+}
+
+}  // namespace
+
+RawSource::RawSource(VolumeInfo info, const StoredVoxels& stored)
+    : info_{(checkFileSize(info, stored), std::move(info))},
+      file_{stored.file},
+      start_{stored.fileOffset},
+      swap_{swapNeeded(stored.bigEndian)} {}
+
+std::uint64_t RawSource::byteOffset(int x, int y, int z) const {
+  const auto row = static_cast<std::uint64_t>(z) * static_cast<std::uint64_t>(info_.grid.dims.y) +
+                   static_cast<std::uint64_t>(y);
+  const auto voxel =
+      row * static_cast<std::uint64_t>(info_.grid.dims.x) + static_cast<std::uint64_t>(x);
+  return start_ + voxel * bytesPerVoxel(info_.type);
+}
+
+void RawSource::load(const IndexBox& region, std::span<std::byte> out) {
+  checkLoad(info_, region, out);
+  if (region.empty()) return;
+  const glm::ivec3 size = region.size();
+  if (size.x == info_.grid.dims.x && size.y == info_.grid.dims.y) {
+    file_.readExactly(byteOffset(0, 0, region.lo.z), out);
+  } else {
+    const std::size_t planeBytes = out.size() / static_cast<std::size_t>(size.z);
+    for (int z = region.lo.z; z < region.hi.z; ++z) {
+      const auto plane = static_cast<std::size_t>(z - region.lo.z);
+      readPlane(region, z, out.subspan(plane * planeBytes, planeBytes));
+    }
+  }
+  if (swap_) swapBytes(out, bytesPerVoxel(info_.type));
+}
+
+/// One z plane of the region. Rows that make up at least an eighth of the bytes between the first
+/// and the last are read in one go and picked out: a system call costs as much as reading some KiB.
+void RawSource::readPlane(const IndexBox& region, int z, std::span<std::byte> out) {
+  constexpr std::uint64_t kWorthwhile = 8;
+  constexpr std::uint64_t kScratchLimit = std::uint64_t{32} << 20;
+  const std::size_t rowBytes =
+      static_cast<std::size_t>(region.size().x) * bytesPerVoxel(info_.type);
+  const std::uint64_t first = byteOffset(region.lo.x, region.lo.y, z);
+  const std::uint64_t length = byteOffset(region.lo.x, region.hi.y - 1, z) + rowBytes - first;
+  if (length == out.size()) {
+    file_.readExactly(first, out);
+    return;
+  }
+  const bool together = length <= kScratchLimit && length / kWorthwhile <= out.size();
+  if (together) {
+    scratch_.resize(static_cast<std::size_t>(length));
+    file_.readExactly(first, scratch_);
+  }
+  for (int y = region.lo.y; y < region.hi.y; ++y) {
+    const auto row =
+        out.subspan(static_cast<std::size_t>(y - region.lo.y) * rowBytes).first(rowBytes);
+    const std::uint64_t from = byteOffset(region.lo.x, y, z);
+    if (together) {
+      std::ranges::copy(std::span{scratch_}.subspan(from - first, rowBytes), row.begin());
+    } else {
+      file_.readExactly(from, row);
+    }
+  }
+}
+
+}  // namespace burin::node

@@ -1,0 +1,12 @@
+# Brick sources (files and procedural volumes), the volume writer, the survey.
+burin_library(volumes
+  SOURCES src/brick_source.cpp src/open_volume.cpp src/stored_voxels.cpp src/byte_order.cpp
+          src/voxel_access.cpp src/file_handle.cpp src/gzip_stream.cpp
+          src/raw_source.cpp src/gzip_source.cpp src/scaled_source.cpp
+          src/nrrd_reader.cpp src/nifti_reader.cpp src/raw_reader.cpp src/raw_name.cpp
+          src/procedural.cpp src/vessel_tree.cpp src/ct_phantom.cpp
+          src/volume_writer.cpp src/gzip_writer.cpp src/nrrd_header.cpp src/nifti_header.cpp
+          src/slab_reading.cpp src/slab_scatter.cpp
+          src/survey.cpp src/range_survey.cpp src/gradient_survey.cpp
+  PUBLIC burin::scene burin::mpi
+  PRIVATE Teem::teem NIFTI::nifti2 ZLIB::ZLIB)
