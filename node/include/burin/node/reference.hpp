@@ -1,0 +1,46 @@
+#pragma once
+
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "burin/common/image.hpp"
+#include "burin/common/scene.hpp"
+#include "burin/node/brick_source.hpp"
+
+namespace burin::node {
+
+/// The slow, double-precision truth: written from techniques and scene contract alone, sharing no
+/// formula with the shaders. Holds the whole volume. Local.
+///
+/// A ray is eye + depth * direction(pixel), the direction scaled to depth 1. Its segments are
+/// [k, k+1] * step in depth, k any integer, clipped to the volume's box and the clip planes and
+/// sampled at their middle (design, "The sample lattice is global and planar").
+class ReferenceRenderer {
+ public:
+  /// Loads all voxels. `scene` must be resolved (opacity unit lengths set).
+  ///
+  /// `gradientScale` (world units), if given, is what gradient magnitudes are measured in where a
+  /// layer asks for the 99.9th percentile; otherwise that is the exact percentile over all voxels.
+  /// The survey's percentile (VolumeSurvey::gradient999) is rounded up to a bin edge, up to 2^-10
+  /// above the exact one: enough to move steep surface curves by more than renderer and reference
+  /// may differ. A comparison of the two therefore hands the survey's number to both.
+  ///
+  /// Throws Error{kVolume} if the voxels cannot be read.
+  ReferenceRenderer(const Scene& scene, BrickSource& source,
+                    std::optional<double> gradientScale = std::nullopt);
+  ~ReferenceRenderer();
+  ReferenceRenderer(const ReferenceRenderer&) = delete;
+  ReferenceRenderer& operator=(const ReferenceRenderer&) = delete;
+
+  /// Premultiplied linear RGBA of rows [firstRow, lastRow), full width, row-major. `threads` (>= 1)
+  /// draw it; the result does not depend on their number, nor on how a frame is cut into rows. The
+  /// scene's step and termination count; its camera and background do not.
+  std::vector<glm::dvec4> render(const Camera& camera, int firstRow, int lastRow,
+                                 int threads) const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace burin::node
