@@ -1,0 +1,50 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "burin/common/brick_tree.hpp"
+#include "burin/common/communicator.hpp"
+#include "burin/common/scene.hpp"
+#include "burin/common/statistics.hpp"
+#include "burin/compositor/subimage.hpp"
+#include "burin/node/brick_source.hpp"
+#include "burin/node/survey.hpp"
+
+namespace burin::node {
+
+struct WorkerOptions {
+  int bricks = 0;    ///< bricks in all; 0: one per rank that renders
+  bool skip = true;  ///< empty-space skipping
+  bool countSamples = false;
+  bool dedicatedHost = false;  ///< rank 0 gets no bricks
+  /// Overrides what the scene's styles declare: tests show with it that the declaration is needed.
+  std::optional<int> ghostLayers = std::nullopt;
+};
+
+/// One rank's share of the renderer, alive across frames: its bricks' textures, its GL context and
+/// programs, and the tree that all ranks agree on.
+class Worker {
+ public:
+  /// Collective. Surveys the volume, splits it, loads this rank's bricks. `scene` must be resolved.
+  Worker(const Communicator& comm, const Scene& scene, BrickSource& source,
+         const WorkerOptions& options);
+  ~Worker();
+
+  const VolumeSurvey& survey() const;
+  const BrickTree& tree() const;
+
+  /// Ranks that own bricks, front to back for this camera. The same on every rank.
+  std::vector<Rank> visibilityOrder(const Camera& camera) const;
+
+  /// Local. Draws this rank's bricks into one subimage (empty active rectangle if nothing is
+  /// visible) and adds to the statistics. Throws Error{kRank} if GL fails.
+  compositor::Subimage<Rgba> draw(const Camera& camera, RankStatistics& statistics);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace burin::node

@@ -1,0 +1,32 @@
+# burin::node: OpenGL off-screen, the fused ray-cast program, bricks and the Worker.
+find_program(BURIN_GLAD glad REQUIRED)
+find_package(Python3 REQUIRED COMPONENTS Interpreter)
+
+set(glad_dir ${CMAKE_CURRENT_BINARY_DIR}/glad)
+add_custom_command(
+  OUTPUT ${glad_dir}/src/gl.c ${glad_dir}/include/glad/gl.h
+  COMMAND ${BURIN_GLAD} --quiet --reproducible --api gl:core=4.5 --extensions ""
+          --out-path ${glad_dir} c --mx
+  COMMENT "Generating the OpenGL loader" VERBATIM)
+add_library(burin_gl_loader STATIC ${glad_dir}/src/gl.c)
+target_include_directories(burin_gl_loader PUBLIC $<BUILD_INTERFACE:${glad_dir}/include>)
+
+set(shader_files
+  fullscreen.vert lattice.glsl volume.glsl skip.glsl shading.glsl raycast.glsl
+  styles/surface.glsl styles/light.glsl styles/tone.glsl styles/edges.glsl styles/specular.glsl)
+list(TRANSFORM shader_files PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/shaders/ OUTPUT_VARIABLE shader_paths)
+set(embedded ${CMAKE_CURRENT_BINARY_DIR}/embedded_shaders.cpp)
+add_custom_command(
+  OUTPUT ${embedded}
+  COMMAND ${CMAKE_COMMAND} -DOUTPUT=${embedded} -DROOT=${CMAKE_CURRENT_SOURCE_DIR}/shaders
+          "-DFILES=${shader_files}" -P ${CMAKE_CURRENT_SOURCE_DIR}/shaders/embed.cmake
+  DEPENDS ${shader_paths} shaders/embed.cmake
+  COMMENT "Embedding shaders" VERBATIM)
+
+burin_library(node
+  SOURCES src/gl.cpp src/osmesa_context.cpp src/offscreen_context.cpp src/thread_share.cpp src/shader_source.cpp
+          src/gl_program.cpp src/program_generator.cpp src/transfer_table.cpp src/value_scale.cpp
+          src/macrocells.cpp src/brick_texture.cpp src/brick.cpp src/cost_estimate.cpp
+          src/raycaster.cpp src/worker.cpp ${embedded}
+  PUBLIC burin::volumes burin::compositor
+  PRIVATE $<BUILD_INTERFACE:burin_gl_loader> ${CMAKE_DL_LIBS})

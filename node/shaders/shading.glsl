@@ -1,0 +1,47 @@
+// What the styles work on. Directions are unit vectors in world space; colours are linear RGB, not
+// premultiplied; extinction is per world unit. Symbols as in the project's notation: m gradient
+// magnitude over the volume's scale, q gradient confidence, e edge measure.
+
+struct Surface {
+  vec3 normal;      // n: 0 where there is no gradient
+  float magnitude;  // m
+  float confidence; // q(m)
+  vec3 toEye;       // v
+};
+
+struct Shading {
+  vec3 colour;        // pass I
+  float extinction;   // pass I
+  vec3 lineColour;    // pass II: sum of weight * colour
+  float lineWeight;   // pass II: sum of weights
+};
+
+uniform vec3 eyeward, eyewardX, eyewardY;  // direction to the eye at the image centre; per pixel
+
+vec3 directionToEye() {
+  vec2 f = gl_FragCoord.xy - imageCentre;
+  return normalize(eyeward + f.x * eyewardX + f.y * eyewardY);
+}
+
+uniform vec3 lightDirection[LIGHTS];  // world, towards the light
+uniform vec3 lightColour[LIGHTS];     // linear, times intensity
+
+const int kNormalOutward = 0, kNormalInward = 1, kNormalFacing = 2;
+
+// `gradient`: world direction of increasing values, its length is the magnitude over the scale.
+Surface surfaceOf(vec3 gradient, float magnitude, float noiseFloor, int orientation, vec3 toEye) {
+  float size = length(gradient);
+  vec3 normal = size > 0.0 ? gradient / -size : vec3(0.0);
+  if (orientation == kNormalInward) normal = -normal;
+  if (orientation == kNormalFacing && dot(normal, toEye) < 0.0) normal = -normal;
+  float m = min(magnitude, 1.0);
+  return Surface(normal, m, smoothstep(noiseFloor, 2.0 * noiseFloor, m), toEye);
+}
+
+// Pass II over pass I: lines replace colour. `classified` is the extinction before any style.
+void drawLines(inout Shading s, float classified) {
+  if (s.lineWeight <= 0.0) return;
+  float amount = min(s.lineWeight, 1.0);
+  s.colour = mix(s.colour, s.lineColour / s.lineWeight, amount);
+  s.extinction = max(s.extinction, classified * amount);
+}

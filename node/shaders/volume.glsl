@@ -1,0 +1,40 @@
+// Look-ups in one brick's texture. Space of positions: centred index space. Values are normalised:
+// 0 and 1 are the ends of the range the texture stores.
+//
+// INVALID_VOXELS: the texture holds (f * valid, valid); a sample is valid from valid = 1/2 on.
+
+uniform sampler3D volume;
+uniform vec3 textureOffset;  // added to a position: voxels from the texture's corner
+uniform vec3 textureScale;   // 1 / texture size
+
+vec3 textureCoordinate(vec3 position) {
+  precise vec3 coordinate = (position + textureOffset) * textureScale;
+  return coordinate;
+}
+
+#ifdef INVALID_VOXELS
+// (value, 1 if valid)
+vec2 volumeLookUp(vec3 coordinate) {
+  vec2 pair = texture(volume, coordinate).rg;
+  return pair.y >= 0.5 ? vec2(pair.x / pair.y, 1.0) : vec2(0.0);
+}
+#else
+vec2 volumeLookUp(vec3 coordinate) { return vec2(texture(volume, coordinate).r, 1.0); }
+#endif
+
+// Central differences of the trilinear field at +-1 voxel, per voxel, not halved. Zero where a tap
+// is not valid. Edges of the texture clamp, which at the volume's border is the definition.
+vec3 volumeDifferences(vec3 position) {
+  vec3 coordinate = textureCoordinate(position);
+  vec3 difference;
+  float valid = 1.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    vec3 offset = vec3(0.0);
+    offset[axis] = textureScale[axis];
+    vec2 above = volumeLookUp(coordinate + offset);
+    vec2 below = volumeLookUp(coordinate - offset);
+    difference[axis] = above.x - below.x;
+    valid *= above.y * below.y;
+  }
+  return difference * valid;
+}

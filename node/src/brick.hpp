@@ -1,0 +1,51 @@
+#pragma once
+
+#include "brick_texture.hpp"
+#include "burin/common/brick_tree.hpp"
+#include "burin/common/scene.hpp"
+#include "macrocells.hpp"
+#include "transfer_table.hpp"
+
+namespace burin::node {
+
+/// One brick on this rank: its voxels as a texture, their macrocells, and what of them the current
+/// transfer functions can show.
+class Brick {
+ public:
+  /// `cells`: the brick's own cells; `ghostLayers`: voxels loaded beyond them, clamped at the
+  /// volume.
+  Brick(BrickId id, const IndexBox& cells, int ghostLayers, const VolumeInfo& volume,
+        const ValueScale& scale);
+
+  void upload(const IndexBox& box, std::span<const std::byte> voxels, StagingBuffer& staging);
+  /// After the last upload.
+  void finishLoading() { macrocells_.finish(); }
+
+  /// Distance map and visible cells for these tables (a macrocell is visible if any layer's
+  /// extinction is above 0 within its range widened by one table bin).
+  void classify(const Scene& scene, std::span<const TransferTable> tables, const ValueScale& scale);
+
+  BrickId id() const { return id_; }
+  const IndexBox& cells() const { return cells_; }
+  const IndexBox& storedVoxels() const { return texture_.storedVoxels(); }
+  GLuint volumeTexture() const { return texture_.id(); }
+  GLuint distanceTexture() const { return distances_.id(); }
+  /// First voxel of the distance map, global index.
+  glm::ivec3 mapOrigin() const { return macrocells_.origin(); }
+  /// Own cells that may be visible; empty if the brick shows nothing.
+  const IndexBox& visibleCells() const { return visibleCells_; }
+  std::size_t residentBytes() const;
+
+ private:
+  BrickId id_;
+  IndexBox cells_;
+  BrickTexture texture_;
+  Macrocells macrocells_;
+  Texture distances_;
+  IndexBox visibleCells_;
+};
+
+/// The voxels that a brick of these cells stores: [lo - ghost, hi + ghost] within the volume.
+IndexBox storedVoxels(const IndexBox& cells, int ghostLayers, const VolumeGrid& grid);
+
+}  // namespace burin::node

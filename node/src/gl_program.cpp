@@ -1,0 +1,82 @@
+#include "gl_program.hpp"
+
+#include <glm/gtc/type_ptr.hpp>
+
+#include "burin/common/error.hpp"
+
+namespace burin::node {
+namespace {
+
+Shader compile(GLenum stage, const ShaderSource& source) {
+  Shader shader{gl().CreateShader(stage)};
+  const char* text = source.text.c_str();
+  gl().ShaderSource(shader.id(), 1, &text, nullptr);
+  gl().CompileShader(shader.id());
+  GLint done = GL_FALSE;
+  gl().GetShaderiv(shader.id(), GL_COMPILE_STATUS, &done);
+  if (done == GL_TRUE) return shader;
+  GLint length = 0;
+  gl().GetShaderiv(shader.id(), GL_INFO_LOG_LENGTH, &length);
+  std::string log(static_cast<std::size_t>(length), '\0');
+  gl().GetShaderInfoLog(shader.id(), length, &length, log.data());
+  log.resize(static_cast<std::size_t>(length));
+  fail(ExitCode::kRank, "{}: does not compile:\n{}", source.files.front(), namedLog(log, source));
+}
+
+}  // namespace
+
+GlProgram::GlProgram(const ShaderSource& vertex, const ShaderSource& fragment)
+    : program_{gl().CreateProgram()} {
+  const Shader vertexShader = compile(GL_VERTEX_SHADER, vertex);
+  const Shader fragmentShader = compile(GL_FRAGMENT_SHADER, fragment);
+  const GLuint id = program_.id();
+  gl().AttachShader(id, vertexShader.id());
+  gl().AttachShader(id, fragmentShader.id());
+  gl().LinkProgram(id);
+  GLint done = GL_FALSE;
+  gl().GetProgramiv(id, GL_LINK_STATUS, &done);
+  if (done == GL_TRUE) return;
+  std::string log(4096, '\0');
+  GLint length = 0;
+  gl().GetProgramInfoLog(id, static_cast<GLsizei>(log.size()), &length, log.data());
+  log.resize(static_cast<std::size_t>(length));
+  fail(ExitCode::kRank, "{}: does not link: {}", fragment.files.front(), log);
+}
+
+GLint GlProgram::location(const std::string& uniform) const {
+  const auto [entry, isNew] = locations_.try_emplace(uniform, -1);
+  if (isNew) entry->second = gl().GetUniformLocation(program_.id(), uniform.c_str());
+  return entry->second;
+}
+
+void GlProgram::set(const std::string& uniform, float value) const {
+  gl().ProgramUniform1f(program_.id(), location(uniform), value);
+}
+void GlProgram::set(const std::string& uniform, int value) const {
+  gl().ProgramUniform1i(program_.id(), location(uniform), value);
+}
+void GlProgram::set(const std::string& uniform, const glm::vec2& value) const {
+  gl().ProgramUniform2fv(program_.id(), location(uniform), 1, glm::value_ptr(value));
+}
+void GlProgram::set(const std::string& uniform, const glm::vec3& value) const {
+  gl().ProgramUniform3fv(program_.id(), location(uniform), 1, glm::value_ptr(value));
+}
+void GlProgram::set(const std::string& uniform, const glm::vec4& value) const {
+  gl().ProgramUniform4fv(program_.id(), location(uniform), 1, glm::value_ptr(value));
+}
+void GlProgram::set(const std::string& uniform, const glm::mat3& value) const {
+  gl().ProgramUniformMatrix3fv(program_.id(), location(uniform), 1, GL_FALSE,
+                               glm::value_ptr(value));
+}
+void GlProgram::set(const std::string& uniform, const std::vector<glm::vec3>& values) const {
+  if (values.empty()) return;
+  gl().ProgramUniform3fv(program_.id(), location(uniform), static_cast<GLsizei>(values.size()),
+                         glm::value_ptr(values.front()));
+}
+void GlProgram::set(const std::string& uniform, const std::vector<glm::vec4>& values) const {
+  if (values.empty()) return;
+  gl().ProgramUniform4fv(program_.id(), location(uniform), static_cast<GLsizei>(values.size()),
+                         glm::value_ptr(values.front()));
+}
+
+}  // namespace burin::node

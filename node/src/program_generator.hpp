@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "burin/common/scene.hpp"
+#include "shader_source.hpp"
+
+namespace burin::node {
+
+/// What decides the text of the ray-cast program beside the scene's layers.
+struct ProgramOptions {
+  bool invalidVoxels = false;
+  bool countSamples = false;
+};
+
+/// The fused ray-cast program of a scene: all layers and passes, only what the scene uses. Two
+/// scenes that differ in parameter values alone give the same text. Adding a style needs no change
+/// here: its parameters come from styleTable(), its code from styles/<name>.glsl.
+ShaderSource generateRaycastProgram(const Scene& scene, const ProgramOptions& options);
+
+/// Names of the uniforms that the generated program declares, in one place for both sides.
+std::string parameterUniform(std::size_t layer, std::string_view style, std::string_view parameter);
+std::string curveUniform(std::size_t layer, std::string_view style, std::string_view parameter);
+std::string transferUniform(std::size_t layer);       ///< sampler1D
+std::string transferScaleUniform(std::size_t layer);  ///< vec3: first value, bins/width, 1/entries
+std::string magnitudeUniform(std::size_t layer);      ///< m = |gradient| * this
+
+}  // namespace burin::node

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "brick.hpp"
+#include "burin/common/image.hpp"
+#include "burin/common/scene.hpp"
+#include "burin/common/statistics.hpp"
+#include "burin/compositor/subimage.hpp"
+#include "gl_program.hpp"
+#include "program_generator.hpp"
+
+namespace burin::node {
+
+struct RaycastOptions {
+  bool skip = true;
+  bool countSamples = false;
+};
+
+/// Draws bricks with the fused ray-cast program. Holds the program of the current scene, its
+/// transfer-function textures and the float target. Its OffscreenContext must be current.
+class Raycaster {
+ public:
+  /// `gradientScales`: world gradient magnitude (data units) that counts as m = 1, by percentile
+  /// and by maximum; 0 where the volume has no gradients.
+  struct GradientScales {
+    double percentile = 0;
+    double maximum = 0;
+  };
+
+  Raycaster(const Scene& scene, const VolumeGrid& grid, const ValueScale& scale,
+            const GradientScales& gradients, const RaycastOptions& options);
+
+  std::span<const TransferTable> transferTables() const { return tables_; }
+
+  /// Draws `bricks`, given front to back, blending each behind the ones before it. Adds the sample
+  /// counters to `statistics` if they are counted.
+  compositor::Subimage<Rgba> draw(const Camera& camera, std::span<const Brick* const> bricks,
+                                  RankStatistics& statistics);
+
+ private:
+  /// World gradient magnitude that counts as 1 in the program before a layer's own scale.
+  double gradientUnit() const;
+  void setSceneUniforms();
+  void setStyleUniforms(std::size_t layer);
+  void setViewUniforms(const Camera& camera);
+  void setBrickUniforms(const Brick& brick);
+  void resizeTarget(ImageSize size);
+  void drawPixels(const PixelRect& pixels, RankStatistics& statistics);
+  void addCounters(RankStatistics& statistics);
+
+  Scene scene_;
+  VolumeGrid grid_;
+  ValueScale scale_;
+  GradientScales gradients_;
+  RaycastOptions options_;
+  std::vector<TransferTable> tables_;
+  std::vector<Texture> transferTextures_;
+  GlProgram program_;
+  VertexArray vertexArray_;
+  Texture target_;
+  Framebuffer framebuffer_;
+  ImageSize targetSize_;
+  Buffer counters_;
+};
+
+}  // namespace burin::node
