@@ -1,0 +1,87 @@
+#pragma once
+
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "burin/common/camera.hpp"
+#include "burin/common/scene.hpp"
+#include "burin/node/worker.hpp"
+
+namespace burin::host {
+
+/// --dims, --type, --endian, --spacing: what a bare raw file does not say itself.
+struct RawLayout {
+  std::optional<glm::ivec3> dims;
+  std::optional<std::string> type;
+  std::optional<std::string> endian;
+  std::optional<glm::dvec3> spacing;
+
+  /// Puts what was given into `choice`, leaves the rest of it alone.
+  void applyTo(VolumeChoice& choice) const;
+};
+
+/// burin render
+struct RenderOptions {
+  std::string input;   ///< SCENE or VOLUME; empty if only --volume was given
+  std::string volume;  ///< --volume, relative to the working directory; empty: the scene's own
+  std::filesystem::path output;  ///< never empty: named after the input if -o was not given
+  std::optional<ImageSize> size;
+  std::vector<std::string> settings;  ///< --set, in order
+  RawLayout raw;
+  node::WorkerOptions worker;
+  int frames = 0;  ///< 0: one picture named as given; else numbered ones
+  double orbitDeg = 360;
+  bool reference = false;
+  bool quiet = false;
+  std::filesystem::path stats;      ///< empty: none
+  std::filesystem::path saveScene;  ///< empty: no
+};
+
+/// burin info
+struct InfoOptions {
+  std::string volume;
+  RawLayout raw;
+};
+
+/// burin make-volume
+struct MakeVolumeOptions {
+  std::string kind;
+  glm::ivec3 dims{1};
+  std::string type = "u8";
+  glm::dvec3 spacing{1};
+  std::filesystem::path output;
+};
+
+/// burin styles
+struct StylesOptions {};
+
+/// --help and --version: text for standard output, nothing else to do.
+struct Answer {
+  std::string text;
+};
+
+using Command = std::variant<RenderOptions, InfoOptions, MakeVolumeOptions, StylesOptions, Answer>;
+
+/// Reads the arguments (without the program's name). Depends on nothing else, so that all ranks
+/// come to the same result. `ranks`: how many take part. Throws Error{kUsage}, one line.
+Command parseCommandLine(std::span<const char* const> arguments, int ranks);
+
+/// Whether an input file is a scene: by its name, which ends in .json or .jsonc.
+bool isSceneFile(const std::filesystem::path& file);
+
+/// "X,Y,Z", e.g. "256,256,128"; each in [1, 2^20]. Throws Error{kUsage} naming `option`.
+glm::ivec3 parseDims(const std::string& text, const std::string& option);
+/// "X,Y,Z", e.g. "0.5,0.5,1.2"; each finite and > 0. Throws Error{kUsage} naming `option`.
+glm::dvec3 parseSpacing(const std::string& text, const std::string& option);
+/// "WxH", e.g. "1024x768"; the scene checks the range. Throws Error{kUsage}.
+ImageSize parseSize(const std::string& text);
+
+/// "1.2.3", the version of this program.
+const char* programVersion();
+
+}  // namespace burin::host

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <filesystem>
+
+#include "burin/common/image.hpp"
+#include "burin/common/scene.hpp"
+#include "burin/common/statistics.hpp"
+#include "burin/host/command_line.hpp"
+#include "burin/host/picture.hpp"
+
+namespace burin::host {
+
+/// The file of frame `index`: "out.png" is numbered "out_0007.png" if there are --frames.
+std::filesystem::path frameFile(const RenderOptions& options, int index);
+
+/// Throws Error{kUsage} unless every file that this run is to write can be written and overwrites
+/// neither another one nor what the command line names as input.
+void checkOutputs(const RenderOptions& options);
+
+/// Throws Error{kUsage} if two outputs (of a sequence: its first frame) are one file, or if one
+/// overwrites the scene or the volume. --save-scene may replace the scene. `volume`: the file, ""
+/// if there is none.
+void checkConflicts(const RenderOptions& options, const std::filesystem::path& volume);
+
+/// What rank 0 alone does with frames: the finish passes and the files. Not collective.
+class Display {
+ public:
+  /// `scene`: resolved.
+  Display(const Scene& scene, const RenderOptions& options);
+
+  /// The finished picture in memory: background and 8 bits for PNG, the frame itself for EXR.
+  void finish(Image<Rgba> frame);
+  /// Writes what `finish` made. Throws as writePng does.
+  void write(int index, double orbitDeg) const;
+
+ private:
+  bool isExr() const;
+  const Scene& scene_;
+  const RenderOptions& options_;
+  Image<Rgba> frame_;
+  DisplayPicture picture_;
+};
+
+}  // namespace burin::host

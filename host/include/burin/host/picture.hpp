@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "burin/common/colour.hpp"
+#include "burin/common/image.hpp"
+
+namespace burin::host {
+
+/// A picture as a screen shows it: sRGB, rows top to bottom, interleaved.
+struct DisplayPicture {
+  ImageSize size;
+  int channels = 3;  ///< 3, or 4 with *straight* alpha
+  std::vector<std::uint8_t> bytes;
+};
+
+/// The float frame over an opaque background (3 channels), or, without one, with straight alpha
+/// (4 channels). Each channel is rounded to the nearest of 256 codes.
+DisplayPicture toDisplay(const Image<Rgba>& frame, const std::optional<Colour>& background);
+
+/// What a picture file says about itself beside its pixels.
+struct PictureMetadata {
+  std::string scene;      ///< JSON text
+  double stepVoxels = 0;  ///< the scene's quality.step_voxels
+  double orbitDeg = 0;    ///< azimuth added to the scene's (--orbit)
+};
+
+/// Write a whole file under a temporary name, then rename it. PNG: 8 bits. EXR: float,
+/// premultiplied linear RGBA. Metadata: "Software", "burin:version", "burin:scene",
+/// "burin:step_voxels", "burin:orbit_deg". No time of day: the same picture gives the same bytes.
+/// Throw Error{kUsage} if the folder cannot be written to, Error{kRank} if writing fails.
+void writePng(const std::filesystem::path& target, const DisplayPicture& picture,
+              const PictureMetadata& metadata);
+void writeExr(const std::filesystem::path& target, const Image<Rgba>& frame,
+              const PictureMetadata& metadata);
+
+}  // namespace burin::host

@@ -1,0 +1,250 @@
+#include "burin/host/command_line.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <sstream>
+
+#include "burin/common/error.hpp"
+#include "burin/common/nearest_name.hpp"
+#include "help_texts.hpp"
+
+namespace burin::host {
+
+namespace {
+
+constexpr int kMostFrames = 1'000'000;
+
+/// What CLI11 fills in before it is checked.
+struct RawText {
+  std::string dims, type, endian, spacing;
+};
+struct RenderText {
+  RawText raw;
+  std::string size;
+  std::string skip = "on";
+  CLI::Option* orbit = nullptr;
+};
+struct MakeText {
+  std::string dims, spacing;
+};
+
+void addRawOptions(CLI::App& app, RawText& text) {
+  app.add_option("--dims", text.dims, "Voxels along each axis of a bare raw file")
+      ->type_name("X,Y,Z");
+  app.add_option("--type", text.type, "Type of its voxels")
+      ->type_name("TYPE")
+      ->check(CLI::IsMember({"u8", "i16", "u16", "f32"}));
+  app.add_option("--endian", text.endian, "Byte order of its voxels")
+      ->type_name("ORDER")
+      ->check(CLI::IsMember({"little", "big"}));
+  app.add_option("--spacing", text.spacing, "Distance of its voxels in world units")
+      ->type_name("X,Y,Z");
+}
+
+RawLayout rawLayout(const RawText& text) {
+  RawLayout raw;
+  if (!text.dims.empty()) raw.dims = parseDims(text.dims, "--dims");
+  if (!text.type.empty()) raw.type = text.type;
+  if (!text.endian.empty()) raw.endian = text.endian;
+  if (!text.spacing.empty()) raw.spacing = parseSpacing(text.spacing, "--spacing");
+  return raw;
+}
+
+void addPictureOptions(CLI::App& app, RenderOptions& options, RenderText& text) {
+  app.add_option("-o,--output", options.output, "The picture, named after the input if not given")
+      ->type_name("FILE.png|FILE.exr");
+  app.add_option("--volume", options.volume, "Draw this volume, whatever the scene names")
+      ->type_name("FILE");
+  app.add_option("--size", text.size, "Size of the picture")->type_name("WxH");
+  app.add_option("--set", options.settings, "Change one key of the scene; may be repeated")
+      ->type_name("PATH=VALUE")
+      ->allow_extra_args(false);
+  app.add_option("--frames", options.frames, "Draw N pictures along an orbit, out_0000.png …")
+      ->type_name("N")
+      ->check(CLI::Range(1, kMostFrames));
+  text.orbit = app.add_option("--orbit", options.orbitDeg,
+                              "Total sweep of the azimuth over all frames, 360 if not given")
+                   ->type_name("DEG")
+                   ->needs("--frames");
+  app.add_option("--save-scene", options.saveScene, "Write the scene as it was drawn")
+      ->type_name("FILE");
+}
+
+void addRunOptions(CLI::App& app, RenderOptions& options, RenderText& text) {
+  app.add_option("--bricks", options.worker.bricks, "Bricks in all; one per drawing rank otherwise")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1 << 20));
+  app.add_option("--skip", text.skip, "Skip what provably cannot be seen (on)")
+      ->type_name("on|off")
+      ->check(CLI::IsMember({"on", "off"}));
+  app.add_flag("--dedicated-host", options.worker.dedicatedHost,
+               "Rank 0 only collects and writes; needs two ranks or more");
+  app.add_option("--stats", options.stats, "Write times and counters of each frame and rank")
+      ->type_name("FILE.json");
+  app.add_flag("--count-samples", options.worker.countSamples, "Count samples for --stats (slower)")
+      ->needs("--stats");
+  app.add_flag("--reference", options.reference,
+               "Draw with the slow double-precision reference; it has no bricks and skips nothing");
+  app.add_flag("--quiet", options.quiet, "Say nothing but warnings and errors");
+}
+
+/// "head.nii.gz" → "head.png".
+std::filesystem::path defaultOutput(const std::filesystem::path& input) {
+  std::filesystem::path name = input.filename();
+  if (name.extension() == ".gz") name.replace_extension();
+  return name.replace_extension(".png");
+}
+
+void checkOutput(const std::filesystem::path& output) {
+  const auto extension = output.extension();
+  if (extension != ".png" && extension != ".exr")
+    fail(ExitCode::kUsage, "-o {}: expected a name that ends in .png or .exr", output.string());
+}
+
+RenderOptions finished(RenderOptions options, const RenderText& text, int ranks) {
+  if (options.input.empty() && options.volume.empty())
+    fail(ExitCode::kUsage, "render: expected a SCENE or a VOLUME");
+  if (!options.input.empty() && !options.volume.empty() && !isSceneFile(options.input))
+    fail(ExitCode::kUsage, "--volume goes with a scene (a .json file), not with volume {}",
+         options.input);
+  if (!std::isfinite(options.orbitDeg))
+    fail(ExitCode::kUsage, "--orbit {}: expected degrees", options.orbitDeg);
+  if (options.worker.dedicatedHost && ranks == 1)
+    fail(ExitCode::kUsage, "--dedicated-host needs two ranks or more, this run has one");
+  if (options.output.empty())
+    options.output = defaultOutput(options.input.empty() ? options.volume : options.input);
+  checkOutput(options.output);
+  if (!text.size.empty()) options.size = parseSize(text.size);
+  options.raw = rawLayout(text.raw);
+  options.worker.skip = text.skip == "on";
+  return options;
+}
+
+MakeVolumeOptions finished(MakeVolumeOptions options, const MakeText& text) {
+  options.dims = parseDims(text.dims, "--dims");
+  if (!text.spacing.empty()) options.spacing = parseSpacing(text.spacing, "--spacing");
+  return options;
+}
+
+void describeMakeVolume(CLI::App& app, MakeVolumeOptions& options, MakeText& text) {
+  app.add_option("KIND", options.kind, "What to make, see below")->required();
+  app.add_option("--dims", text.dims, "Voxels along each axis")->type_name("X,Y,Z")->required();
+  app.add_option("--type", options.type, "Type of the voxels (u8)")
+      ->type_name("TYPE")
+      ->check(CLI::IsMember({"u8", "i16", "u16", "f32"}));
+  app.add_option("--spacing", text.spacing, "Distance of voxels in world units (1,1,1)")
+      ->type_name("X,Y,Z");
+  app.add_option("-o,--output", options.output, "The file to write")->type_name("FILE")->required();
+  app.footer(makeVolumeFooter());
+}
+
+constexpr std::string_view kCommands[] = {"render", "info", "make-volume", "styles"};
+
+/// CLI11 would only say that a subcommand is missing.
+void checkCommandName(std::span<const char* const> arguments) {
+  if (arguments.empty())
+    fail(ExitCode::kUsage, "expected a command: {} (burin --help tells more)",
+         fmt::join(kCommands, ", "));
+  const std::string_view name = arguments.front();
+  if (name == "-h" || name == "--help" || name == "--version") return;
+  if (std::ranges::find(kCommands, name) != std::end(kCommands)) return;
+  fail(ExitCode::kUsage, "unknown command '{}': {}", name, nameSuggestion(name, kCommands));
+}
+
+/// "--size is given twice" for an option that takes one value and got more; else "".
+std::string givenTwice(const CLI::App& command) {
+  for (const CLI::Option* option : command.get_options()) {
+    const std::size_t given = option->results().size();
+    if (option->get_items_expected_max() != 1 || given < 2) continue;
+    const std::string times = given == 2 ? "twice" : fmt::format("{} times", given);
+    return fmt::format("{} is given {}", option->get_name(), times);
+  }
+  return {};
+}
+
+/// CLI11's own words on one line, with where to read more.
+[[noreturn]] void failUsage(const CLI::App& app, const CLI::ParseError& error) {
+  std::string message = error.what();
+  std::replace(message.begin(), message.end(), '\n', ' ');
+  const auto chosen = app.get_subcommands();
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr && !chosen.empty()) {
+    const std::string twice = givenTwice(*chosen.front());
+    if (!twice.empty()) message = twice;
+  }
+  const std::string program = chosen.empty() ? "burin" : "burin " + chosen.front()->get_name();
+  fail(ExitCode::kUsage, "{} ({} --help lists the options)", message, program);
+}
+
+/// Arguments in the order CLI11 wants: last one first.
+std::vector<std::string> reversed(std::span<const char* const> arguments) {
+  return {arguments.rbegin(), arguments.rend()};
+}
+
+}  // namespace
+
+void RawLayout::applyTo(VolumeChoice& choice) const {
+  if (dims) choice.dims = dims;
+  if (type) choice.type = type;
+  if (endian) choice.endian = endian;
+  if (spacing) choice.spacing = spacing;
+}
+
+bool isSceneFile(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension == ".json" || extension == ".jsonc";
+}
+
+const char* programVersion() {
+  return BURIN_VERSION;
+}
+
+Command parseCommandLine(std::span<const char* const> arguments, int ranks) {
+  checkCommandName(arguments);
+  CLI::App app{"burin draws illustrations of volume data, on any number of MPI ranks.", "burin"};
+  app.set_version_flag("--version", std::string{"burin "} + programVersion());
+  app.footer(programFooter());
+  app.require_subcommand(1);
+
+  RenderOptions render;
+  RenderText renderText;
+  CLI::App& renderApp = *app.add_subcommand("render", "Draw a scene or a volume");
+  renderApp.add_option("INPUT", render.input, "A scene (.json) or a volume")->type_name("FILE");
+  addPictureOptions(renderApp, render, renderText);
+  addRawOptions(renderApp, renderText.raw);
+  addRunOptions(renderApp, render, renderText);
+  renderApp.footer(renderFooter());
+
+  InfoOptions info;
+  RawText infoText;
+  CLI::App& infoApp = *app.add_subcommand("info", "Describe a volume");
+  infoApp.add_option("VOLUME", info.volume, "The volume")->type_name("FILE")->required();
+  addRawOptions(infoApp, infoText);
+
+  MakeVolumeOptions make;
+  MakeText makeText;
+  CLI::App& makeApp = *app.add_subcommand("make-volume", "Write a procedural volume");
+  describeMakeVolume(makeApp, make, makeText);
+
+  CLI::App& stylesApp = *app.add_subcommand("styles", "List the styles and their parameters");
+
+  try {
+    app.parse(reversed(arguments));
+  } catch (const CLI::Success& wanted) {  // --help or --version
+    std::ostringstream out, unused;
+    app.exit(wanted, out, unused);
+    return Answer{out.str()};
+  } catch (const CLI::ParseError& error) {
+    failUsage(app, error);
+  }
+  if (renderApp.parsed()) return finished(render, renderText, ranks);
+  if (makeApp.parsed()) return finished(make, makeText);
+  if (stylesApp.parsed()) return StylesOptions{};
+  info.raw = rawLayout(infoText);
+  return info;
+}
+
+}  // namespace burin::host

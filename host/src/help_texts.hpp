@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+
+namespace burin::host {
+
+/// What stands below the option lists of --help.
+std::string programFooter();
+std::string renderFooter();
+std::string makeVolumeFooter();
+
+}  // namespace burin::host

@@ -1,0 +1,75 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "burin/host/commands.hpp"
+#include "burin/host/histogram.hpp"
+#include "burin/host/scene_setup.hpp"
+#include "burin/node/survey.hpp"
+
+namespace burin::host {
+
+namespace {
+
+constexpr int kHistogramColumns = 64;
+constexpr int kHistogramRows = 8;
+
+std::string line(const char* label, const std::string& value) {
+  return fmt::format("{:<13}{}\n", label, value);
+}
+
+std::string triple(const glm::dvec3& given) {
+  const glm::dvec3 v = given + 0.0;  // makes 0 of -0
+  return fmt::format("{:.6g} {:.6g} {:.6g}", v.x, v.y, v.z);
+}
+
+std::string byteCount(std::size_t bytes) {
+  constexpr double kMebi = 1024.0 * 1024.0;
+  const auto count = static_cast<double>(bytes);
+  return count < kMebi ? fmt::format("{:.1f} KiB", count / 1024)
+                       : fmt::format("{:.1f} MiB", count / kMebi);
+}
+
+std::string describeFile(const node::VolumeInfo& info) {
+  const VolumeGrid& grid = info.grid;
+  const glm::dvec3 size = glm::dvec3{grid.cells()} * grid.spacing;
+  return line("volume", info.name) + line("format", info.format) +
+         line("dimensions", fmt::format("{} x {} x {}", grid.dims.x, grid.dims.y, grid.dims.z)) +
+         line("type",
+              fmt::format("{}, {}", node::voxelTypeName(info.type), byteCount(info.bytes()))) +
+         line("spacing", triple(grid.spacing)) + line("size", triple(size)) +
+         line("origin", triple(grid.origin)) +
+         line("orientation",
+              fmt::format("x ({}), y ({}), z ({}), {}", triple(grid.direction[0]),
+                          triple(grid.direction[1]), triple(grid.direction[2]),
+                          info.anatomical ? "anatomical: world is left, posterior, superior"
+                                          : "the file's own axes"));
+}
+
+std::string describeValues(const node::VolumeSurvey& survey) {
+  return line("range", fmt::format("{:.7g} … {:.7g}", survey.lowest, survey.highest)) +
+         line("not finite",
+              fmt::format("{} NaN, {} infinite", survey.nanCount, survey.infiniteCount)) +
+         line("gradient",
+              fmt::format("{:.6g} per world unit at the 99.9th percentile, {:.6g} at most",
+                          survey.gradient999, survey.largestGradient));
+}
+
+}  // namespace
+
+int runInfo(const Communicator& comm, const InfoOptions& options) {
+  VolumeChoice choice;
+  choice.file = options.volume;
+  options.raw.applyTo(choice);
+  const auto source = openTogether(comm, choice);
+  const auto survey = node::surveyVolume(comm, *source, true);
+  const Histogram histogram = computeHistogram(comm, *source, survey);
+  if (!comm.isRoot()) return 0;
+  const std::string text = describeFile(source->info()) + describeValues(survey) +
+                           "histogram    logarithmic\n" +
+                           drawHistogram(histogram, kHistogramColumns, kHistogramRows);
+  std::fputs(text.c_str(), stdout);
+  return 0;
+}
+
+}  // namespace burin::host

@@ -1,0 +1,13 @@
+#include "burin/common/log.hpp"
+#include "burin/host/commands.hpp"
+#include "burin/host/session.hpp"
+
+namespace burin::host {
+
+int runRender(const Communicator& comm, const RenderOptions& options) {
+  setQuiet(options.quiet);
+  Session session{comm, options};
+  return session.run();
+}
+
+}  // namespace burin::host

@@ -1,0 +1,13 @@
+#include <cstdio>
+
+#include "burin/common/style.hpp"
+#include "burin/host/commands.hpp"
+
+namespace burin::host {
+
+int runStyles(const Communicator& comm) {
+  if (comm.isRoot()) std::fputs(styleHelp().c_str(), stdout);
+  return 0;
+}
+
+}  // namespace burin::host
