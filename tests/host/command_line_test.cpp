@@ -1,0 +1,208 @@
+#include "burin/host/command_line.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "burin/common/error.hpp"
+
+namespace burin::host {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+Command parse(const std::vector<const char*>& arguments, int ranks = 1) {
+  return parseCommandLine(arguments, ranks);
+}
+
+RenderOptions parseRender(std::vector<const char*> arguments, int ranks = 1) {
+  arguments.insert(arguments.begin(), "render");
+  return std::get<RenderOptions>(parse(arguments, ranks));
+}
+
+/// The message of a usage error; "" if there was none.
+std::string usageError(const std::vector<const char*>& arguments, int ranks = 1) {
+  try {
+    parse(arguments, ranks);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kUsage);
+    return error.what();
+  }
+  return {};
+}
+
+TEST(CommandLine, RenderHasTheDocumentedDefaults) {
+  const RenderOptions options = parseRender({"dir/scene.json"});
+  EXPECT_EQ(options.input, "dir/scene.json");
+  EXPECT_EQ(options.output, "scene.png");
+  EXPECT_FALSE(options.size);
+  EXPECT_TRUE(options.worker.skip);
+  EXPECT_FALSE(options.worker.dedicatedHost);
+  EXPECT_FALSE(options.worker.countSamples);
+  EXPECT_EQ(options.worker.bricks, 0);
+  EXPECT_EQ(options.frames, 0);
+  EXPECT_FALSE(options.reference);
+}
+
+TEST(CommandLine, RenderTakesEveryOption) {
+  const RenderOptions options = parseRender({"s.json",
+                                             "-o",
+                                             "a.exr",
+                                             "--volume",
+                                             "v.raw",
+                                             "--size",
+                                             "640x480",
+                                             "--set",
+                                             "a.b=1",
+                                             "--set",
+                                             "c=[1,2]",
+                                             "--bricks",
+                                             "13",
+                                             "--skip",
+                                             "off",
+                                             "--frames",
+                                             "8",
+                                             "--orbit",
+                                             "-90.5",
+                                             "--dims",
+                                             "3,4,5",
+                                             "--type",
+                                             "i16",
+                                             "--endian",
+                                             "big",
+                                             "--spacing",
+                                             "0.5,1,2.25",
+                                             "--stats",
+                                             "t.json",
+                                             "--reference",
+                                             "--quiet",
+                                             "--count-samples",
+                                             "--dedicated-host",
+                                             "--save-scene",
+                                             "out.json"},
+                                            2);
+  EXPECT_EQ(options.output, "a.exr");
+  EXPECT_EQ(options.volume, "v.raw");
+  EXPECT_EQ(options.size, (ImageSize{640, 480}));
+  EXPECT_THAT(options.settings, ElementsAre("a.b=1", "c=[1,2]"));
+  EXPECT_EQ(options.worker.bricks, 13);
+  EXPECT_FALSE(options.worker.skip);
+  EXPECT_TRUE(options.worker.countSamples);
+  EXPECT_TRUE(options.worker.dedicatedHost);
+  EXPECT_EQ(options.frames, 8);
+  EXPECT_EQ(options.orbitDeg, -90.5);
+  EXPECT_EQ(options.raw.dims, glm::ivec3(3, 4, 5));
+  EXPECT_EQ(options.raw.type, "i16");
+  EXPECT_EQ(options.raw.endian, "big");
+  EXPECT_EQ(options.raw.spacing, glm::dvec3(0.5, 1, 2.25));
+  EXPECT_EQ(options.stats, "t.json");
+  EXPECT_EQ(options.saveScene, "out.json");
+  EXPECT_TRUE(options.reference);
+  EXPECT_TRUE(options.quiet);
+}
+
+TEST(CommandLine, SetDoesNotSwallowTheInput) {
+  const RenderOptions options = parseRender({"--set", "a=1", "s.json", "--set", "b=2"});
+  EXPECT_EQ(options.input, "s.json");
+  EXPECT_THAT(options.settings, ElementsAre("a=1", "b=2"));
+}
+
+TEST(CommandLine, PictureIsNamedAfterTheInput) {
+  EXPECT_EQ(parseRender({"x/head.nii.gz"}).output, "head.png");
+  EXPECT_EQ(parseRender({"head.nrrd"}).output, "head.png");
+  EXPECT_EQ(parseRender({"--volume", "y/foot.raw"}).output, "foot.png");
+}
+
+TEST(CommandLine, OtherCommands) {
+  const auto make = std::get<MakeVolumeOptions>(
+      parse({"make-volume", "shells", "--dims", "9,8,7", "--type", "f32", "-o", "a.nrrd"}));
+  EXPECT_EQ(make.kind, "shells");
+  EXPECT_EQ(make.dims, glm::ivec3(9, 8, 7));
+  EXPECT_EQ(make.type, "f32");
+  EXPECT_EQ(make.spacing, glm::dvec3(1));
+  EXPECT_EQ(make.output, "a.nrrd");
+  const auto info = std::get<InfoOptions>(parse({"info", "v.raw", "--dims", "1,2,3"}));
+  EXPECT_EQ(info.volume, "v.raw");
+  EXPECT_EQ(info.raw.dims, glm::ivec3(1, 2, 3));
+  EXPECT_TRUE(std::holds_alternative<StylesOptions>(parse({"styles"})));
+}
+
+TEST(CommandLine, HelpAndVersionAreAnswers) {
+  EXPECT_EQ(std::get<Answer>(parse({"--version"})).text,
+            std::string{"burin "} + programVersion() + "\n");
+  EXPECT_THAT(std::get<Answer>(parse({"--help"})).text, HasSubstr("make-volume"));
+  const std::string render = std::get<Answer>(parse({"render", "--help"})).text;
+  for (const char* option :
+       {"--output", "--volume", "--size", "--set", "--bricks", "--skip", "--dedicated-host",
+        "--frames", "--orbit", "--dims", "--type", "--endian", "--stats", "--count-samples",
+        "--reference", "--save-scene", "--quiet", "burin styles", "schema.json"})
+    EXPECT_THAT(render, HasSubstr(option));
+  EXPECT_THAT(std::get<Answer>(parse({"make-volume", "--help"})).text, HasSubstr("vessels"));
+}
+
+struct BadUsage {
+  std::vector<const char*> arguments;
+  const char* named;  ///< what the message must mention
+};
+
+class CommandLineErrors : public ::testing::TestWithParam<BadUsage> {};
+
+TEST_P(CommandLineErrors, AreOneLineThatNamesTheFault) {
+  const std::string message = usageError(GetParam().arguments);
+  EXPECT_THAT(message, HasSubstr(GetParam().named));
+  EXPECT_THAT(message, Not(HasSubstr("\n")));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, CommandLineErrors,
+    ::testing::Values(BadUsage{{}, "make-volume"}, BadUsage{{"rendr"}, "did you mean 'render'"},
+                      BadUsage{{"--quiet"}, "--quiet"}, BadUsage{{"render"}, "SCENE"},
+                      BadUsage{{"render", "s.json", "--colour"}, "--colour"},
+                      BadUsage{{"render", "s.json", "extra"}, "extra"},
+                      BadUsage{{"render", "v.nrrd", "--volume", "w.nrrd"}, "--volume"},
+                      BadUsage{{"render", "s.json", "-o", "a.jpg"}, "a.jpg"},
+                      BadUsage{{"render", "s.json", "-o", "png"}, "png"},
+                      BadUsage{{"render", "s.json", "--size", "640"}, "--size 640"},
+                      BadUsage{{"render", "s.json", "--size", "640x"}, "--size 640x"},
+                      BadUsage{{"render", "s.json", "--size", "6 x 4"}, "--size"},
+                      BadUsage{{"render", "s.json", "--size", "1x1", "--size", "2x2"},
+                               "--size is given twice"},
+                      BadUsage{{"info", "v.raw", "--type", "u8", "--type", "u8", "--type", "u8"},
+                               "--type is given 3 times"},
+                      BadUsage{{"render", "s.json", "--dims", "3,4"}, "--dims 3,4"},
+                      BadUsage{{"render", "s.json", "--dims", "3,4,5,6"}, "--dims 3,4,5,6"},
+                      BadUsage{{"render", "s.json", "--dims", "3,4,0"}, "--dims 3,4,0"},
+                      BadUsage{{"render", "s.json", "--dims", "3,4,99999999999"}, "--dims"},
+                      BadUsage{{"render", "s.json", "--spacing", "1,-1,1"}, "--spacing"},
+                      BadUsage{{"render", "s.json", "--spacing", "1,nan,1"}, "--spacing"},
+                      BadUsage{{"render", "s.json", "--type", "u64"}, "u64"},
+                      BadUsage{{"render", "s.json", "--endian", "middle"}, "middle"},
+                      BadUsage{{"render", "s.json", "--skip", "maybe"}, "maybe"},
+                      BadUsage{{"render", "s.json", "--bricks", "0"}, "--bricks"},
+                      BadUsage{{"render", "s.json", "--bricks", "many"}, "--bricks"},
+                      BadUsage{{"render", "s.json", "--frames", "0"}, "--frames"},
+                      BadUsage{{"render", "s.json", "--orbit", "90"}, "--frames"},
+                      BadUsage{{"render", "s.json", "--frames", "2", "--orbit", "inf"}, "--orbit"},
+                      BadUsage{{"render", "s.json", "--count-samples"}, "--stats"},
+                      BadUsage{{"render", "s.json", "--dedicated-host"}, "--dedicated-host"},
+                      BadUsage{{"info"}, "VOLUME"},
+                      BadUsage{{"make-volume", "shells", "-o", "a.nrrd"}, "--dims"},
+                      BadUsage{{"make-volume", "shells", "--dims", "4,4,4"}, "--output"},
+                      BadUsage{{"styles", "tone"}, "tone"}));
+
+TEST(CommandLine, DedicatedHostNeedsTwoRanks) {
+  EXPECT_NE(usageError({"render", "s.json", "--dedicated-host"}, 1), "");
+  EXPECT_EQ(usageError({"render", "s.json", "--dedicated-host"}, 2), "");
+}
+
+TEST(CommandLine, ScenesAreKnownByTheirName) {
+  EXPECT_TRUE(isSceneFile("a/b.json"));
+  EXPECT_TRUE(isSceneFile("B.JSON"));
+  EXPECT_TRUE(isSceneFile("b.jsonc"));
+  EXPECT_FALSE(isSceneFile("b.nrrd"));
+  EXPECT_FALSE(isSceneFile("json"));
+}
+
+}  // namespace
+}  // namespace burin::host

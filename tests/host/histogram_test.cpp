@@ -1,0 +1,113 @@
+#include "burin/host/histogram.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/array_source.hpp"
+#include "support/mpi_test.hpp"
+
+namespace burin::host {
+namespace {
+
+using test::ArraySource;
+using test::world;
+using ::testing::Each;
+using ::testing::HasSubstr;
+
+VolumeGrid gridOf(const glm::ivec3& dims) {
+  VolumeGrid grid;
+  grid.dims = dims;
+  return grid;
+}
+
+Histogram histogramOf(ArraySource source) {
+  return computeHistogram(world(), source, node::surveyVolume(world(), source, false));
+}
+
+TEST(Histogram, CountsEachValueOfAByteVolume) {
+  // Value x + 20 (y + 3z) mod 7: counted here once more, without slabs or ranks.
+  const auto value = [](glm::ivec3 p) {
+    return static_cast<std::uint8_t>(p.x + 20 * ((p.y + 3 * p.z) % 7));
+  };
+  const glm::ivec3 dims{5, 6, 11};
+  std::vector<std::int64_t> expected(125);  // 0 … 124
+  for (int z = 0; z < dims.z; ++z)
+    for (int y = 0; y < dims.y; ++y)
+      for (int x = 0; x < dims.x; ++x) ++expected[value({x, y, z})];
+  const auto histogram =
+      histogramOf(ArraySource::of<std::uint8_t>(gridOf(dims), node::VoxelType::kU8, value));
+  EXPECT_EQ(histogram.binWidth, 1);
+  EXPECT_EQ(histogram.lowest, 0);
+  EXPECT_EQ(histogram.highest, 124);
+  EXPECT_EQ(histogram.counts, expected);
+}
+
+TEST(Histogram, WideIntegersShareBinsEvenly) {
+  // Every value of -8192 … 8191 once: 16384 values in 1024 bins of 16.
+  const auto histogram = histogramOf(ArraySource::of<std::int16_t>(
+      gridOf({128, 16, 8}), node::VoxelType::kI16,
+      [](glm::ivec3 p) { return static_cast<std::int16_t>(p.x + 128 * (p.y + 16 * p.z) - 8192); }));
+  EXPECT_EQ(histogram.lowest, -8192);
+  EXPECT_EQ(histogram.binWidth, 16);
+  EXPECT_EQ(histogram.counts.size(), 1024u);
+  EXPECT_THAT(histogram.counts, Each(16));
+}
+
+TEST(Histogram, FloatsLeaveOutWhatIsNotFinite) {
+  const auto histogram = histogramOf(ArraySource{gridOf({4, 4, 4}), [](glm::ivec3 p) {
+                                                   if (p.x == 3 && p.y == 0) return NAN;
+                                                   if (p.x == 3 && p.y == 1) return INFINITY;
+                                                   return static_cast<float>(p.x);
+                                                 }});
+  EXPECT_EQ(histogram.total(), 64 - 8);
+  EXPECT_EQ(histogram.counts.front(), 16);
+  EXPECT_EQ(histogram.counts.back(), 8);  // the largest value belongs to the last bin
+}
+
+TEST(Histogram, ConstantVolumeHasOneBin) {
+  const auto histogram = histogramOf(ArraySource{gridOf({3, 3, 3}), [](glm::ivec3) { return 7; }});
+  EXPECT_THAT(histogram.counts, ::testing::ElementsAre(27));
+  EXPECT_TRUE(std::isfinite(otsuThreshold(histogram)));
+  EXPECT_GT(quantileAbove(histogram, histogram.lowest, 0.99), histogram.lowest);
+}
+
+TEST(Histogram, OtsuPartsTwoHeaps) {
+  Histogram histogram;
+  histogram.lowest = 100;
+  histogram.binWidth = 2;
+  histogram.counts = {900, 950, 800, 0, 0, 0, 0, 40, 60, 30};
+  // Any threshold in the gap gives the same classes; the first is the lower edge of bin 3.
+  EXPECT_EQ(otsuThreshold(histogram), 106);
+}
+
+TEST(Histogram, QuantileLooksOnlyAbove) {
+  Histogram histogram;
+  histogram.counts = {1000, 1000, 50, 49, 1};
+  EXPECT_EQ(quantileAbove(histogram, 2, 0.5), 3);
+  EXPECT_EQ(quantileAbove(histogram, 2, 0.99), 4);
+  EXPECT_EQ(quantileAbove(histogram, 2, 1), 5);
+  EXPECT_EQ(quantileAbove(histogram, 0, 0.3), 1);
+}
+
+TEST(HistogramText, DrawsLogarithmicBars) {
+  Histogram histogram;
+  histogram.lowest = 0;
+  histogram.highest = 3;
+  histogram.counts = {9999, 99, 0, 1};  // log1p: 1, ½, 0, 0.075 of the tallest
+  EXPECT_EQ(drawHistogram(histogram, 4, 2), "  █   \n  ██ ▁\n  0  3\n");
+}
+
+TEST(HistogramText, JoinsBinsIntoColumns) {
+  Histogram histogram;
+  histogram.highest = 255;
+  histogram.counts.assign(256, 5);
+  const std::string text = drawHistogram(histogram, 64, 1);
+  std::string bar = "  ";
+  for (int i = 0; i < 64; ++i) bar += "█";
+  EXPECT_THAT(text, HasSubstr(bar + "\n"));
+}
+
+}  // namespace
+}  // namespace burin::host

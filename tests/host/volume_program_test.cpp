@@ -1,0 +1,100 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+
+#include "host/program.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace burin {
+namespace {
+
+using test::onlyLine;
+using test::runBurin;
+using test::TemporaryFolder;
+using ::testing::ContainsRegex;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+std::string infoOf(const std::vector<std::string>& arguments, int ranks = 0) {
+  std::vector<std::string> all{"info"};
+  all.insert(all.end(), arguments.begin(), arguments.end());
+  const auto result = runBurin(all, ranks);
+  EXPECT_EQ(result.exitCode, 0) << result.err;
+  return result.out;
+}
+
+TEST(MakeVolume, InfoReadsBackWhatWasMade) {
+  const TemporaryFolder folder;
+  const auto made = runBurin({"make-volume", "ramp", "--dims", "9,8,7", "--type", "u16",
+                              "--spacing", "0.5,1,2", "-o", folder / "ramp.nrrd"});
+  ASSERT_EQ(made.exitCode, 0) << made.err;
+  EXPECT_THAT(folder.names(), ElementsAre("ramp.nrrd"));
+  const std::string info = infoOf({folder / "ramp.nrrd"});
+  EXPECT_THAT(info, HasSubstr("9 x 8 x 7"));
+  EXPECT_THAT(info, HasSubstr("u16"));
+  EXPECT_THAT(info, HasSubstr("0.5 1 2"));
+  EXPECT_THAT(info, HasSubstr("0 … 4095"));  // u16 volumes use 12 bits, the ramp all of them
+  EXPECT_THAT(info, HasSubstr("0 NaN, 0 infinite"));
+  EXPECT_EQ(infoOf({folder / "ramp.nrrd"}, 3), info);
+}
+
+TEST(MakeVolume, BadKindAndBadFolder) {
+  const TemporaryFolder folder;
+  const auto kind = runBurin({"make-volume", "rmp", "--dims", "4,4,4", "-o", folder / "a.nrrd"}, 3);
+  EXPECT_EQ(kind.exitCode, 2);
+  EXPECT_THAT(onlyLine(kind.err), HasSubstr("ramp"));
+  const auto place =
+      runBurin({"make-volume", "ramp", "--dims", "4,4,4", "-o", folder / "b/a.nrrd"});
+  EXPECT_EQ(place.exitCode, 2);
+  EXPECT_THAT(onlyLine(place.err), HasSubstr("b/a.nrrd"));
+  EXPECT_THAT(folder.names(), IsEmpty());
+}
+
+TEST(Info, BareRawFileWithOptions) {
+  const TemporaryFolder folder;
+  std::ofstream file{folder / "bytes", std::ios::binary};
+  for (int i = 0; i < 24; ++i) file.put('\1').put(static_cast<char>(i));  // 0x0100 + i, big-endian
+  file.close();
+  const std::string info = infoOf({folder / "bytes", "--dims", "2,3,4", "--type", "u16", "--endian",
+                                   "big", "--spacing", "1,1,3"});
+  EXPECT_THAT(info, HasSubstr("2 x 3 x 4"));
+  EXPECT_THAT(info, HasSubstr("256 … 279"));
+  EXPECT_THAT(info, HasSubstr("1 1 3"));
+}
+
+TEST(Info, HasNoNegativeZeros) {
+  const TemporaryFolder folder;
+  folder.write("a.nrrd",
+               "NRRD0004\ntype: uint8\ndimension: 3\nspace: RAS\nsizes: 2 2 2\n"
+               "space directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: (0,0,0)\n"
+               "encoding: raw\n\n12345678");
+  const std::string info = infoOf({folder / "a.nrrd"});
+  EXPECT_THAT(info, HasSubstr("x (-1 0 0), y (0 -1 0), z (0 0 1)"));  // RAS in LPS
+  EXPECT_THAT(info, ContainsRegex("origin +0 0 0\n"));
+}
+
+TEST(Info, CountsWhatIsNotFinite) {
+  const TemporaryFolder folder;
+  const float values[] = {0, 1, -2.5f, NAN, INFINITY, -INFINITY, NAN, 3};
+  std::ofstream{folder / "v_2x2x2_float32.raw", std::ios::binary}.write(
+      reinterpret_cast<const char*>(values), sizeof(values));
+  const std::string info = infoOf({folder / "v_2x2x2_float32.raw"});
+  EXPECT_THAT(info, HasSubstr("2 NaN, 2 infinite"));
+  EXPECT_THAT(info, HasSubstr("-2.5 … 3"));
+}
+
+TEST(Info, DrawsAHistogram) {
+  const TemporaryFolder folder;
+  std::ofstream{folder / "v_4x4x4_uint8.raw"} << std::string(32, '\0') << std::string(32, '\77');
+  const std::string info = infoOf({folder / "v_4x4x4_uint8.raw"});
+  // 64 values in 64 columns, the first and the last of them equally tall.
+  EXPECT_THAT(info, HasSubstr("\n  █" + std::string(62, ' ') + "█\n"));
+  EXPECT_THAT(info, ContainsRegex("\n  0 +63\n"));
+}
+
+}  // namespace
+}  // namespace burin

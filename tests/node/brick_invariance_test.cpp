@@ -1,0 +1,127 @@
+// The picture does not depend on how the volume is cut into bricks (design: rank invariance is a
+// tested number).
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/drawing.hpp"
+#include "support/scenes.hpp"
+
+namespace burin::test {
+namespace {
+
+// Positions are the same bit for bit; what differs is the texture unit's own float coordinates, by
+// about 2^-24 of a texture's extent times its size in voxels, and the grouping of over. For
+// transfer functions no steeper than full opacity over 1/16 of the range this was measured to
+// reach 1.3e-5.
+constexpr double kLargest = 5e-5;
+constexpr double kRms = 2e-6;
+
+struct View {
+  const char* name;
+  CameraChoice camera;
+};
+
+/// Eyes around, inside and in a split plane of a volume with that box centre.
+std::vector<View> views(const VolumeGrid& grid) {
+  const glm::dvec3 centre = grid.centreWorld();
+  const double radius = grid.boundingRadius();
+  CameraChoice around{.azimuthDeg = 35, .elevationDeg = 25};
+  CameraChoice parallel = around;
+  parallel.projection = Projection::kOrthographic;
+  CameraChoice inside{.verticalFovDeg = 90};
+  inside.eye = centre + glm::dvec3{0.11, -0.07, 0.05} * radius;
+  inside.target = centre + glm::dvec3{0.5, 0.8, 0.3} * radius;
+  // In the plane through the middle voxel of the x axis, where the tree splits first.
+  CameraChoice inPlane{.verticalFovDeg = 40};
+  const glm::dvec3 middle = grid.worldFromIndex(glm::dvec3{grid.dims / 2});
+  inPlane.eye = glm::dvec3{middle.x, centre.y + 0.4 * radius, centre.z + 2.5 * radius};
+  inPlane.target = glm::dvec3{middle.x, centre.y, centre.z};
+  CameraChoice parallelInPlane{.azimuthDeg = 0, .elevationDeg = 0};
+  parallelInPlane.projection = Projection::kOrthographic;
+  return {{"around", around},
+          {"parallel", parallel},
+          {"inside", inside},
+          {"in a split plane", inPlane},
+          {"parallel to split planes", parallelInPlane}};
+}
+
+class BrickInvariance : public testing::TestWithParam<std::string> {};
+
+TEST_P(BrickInvariance, AnyNumberOfBricksDrawsTheSamePicture) {
+  const VolumeGrid grid = gridOf({46, 37, 29}, {1.0, 0.8, 1.9});
+  ArraySource source = smoothVolume(grid);
+  Scene scene = resolved(sceneWithStyle(GetParam()), source);
+  scene.lights = {{.direction = {0.2, 0.5, 0.8}}};
+  const Communicator self{MPI_COMM_SELF};
+
+  std::vector<Camera> cameras;
+  for (const View& view : views(grid)) {
+    scene.camera = view.camera;
+    cameras.push_back(resolveCamera(scene, {grid, false}));
+  }
+  RankStatistics statistics;
+  std::vector<Image<Rgba>> one;
+  {
+    node::Worker worker{self, scene, source, {.bricks = 1}};
+    ASSERT_EQ(worker.tree().brickCount(), 1u);
+    for (const Camera& camera : cameras) {
+      one.push_back(wholeFrame(worker.draw(camera, statistics)));
+      EXPECT_GT(largestAlpha(one.back()), 0.3);
+    }
+  }
+  for (const int bricks : {2, 3, 4, 5, 6, 7, 8, 13, 64}) {
+    node::Worker worker{self, scene, source, {.bricks = bricks}};
+    ASSERT_EQ(worker.tree().brickCount(), static_cast<std::size_t>(bricks));
+    for (std::size_t i = 0; i < cameras.size(); ++i) {
+      const Image<Rgba> many = wholeFrame(worker.draw(cameras[i], statistics));
+      const Difference d = difference(one[i], many);
+      EXPECT_TRUE(d.finite);
+      EXPECT_LE(d.largest, kLargest) << bricks << " bricks, " << views(grid)[i].name;
+      EXPECT_LE(d.rms, kRms) << bricks << " bricks, " << views(grid)[i].name;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Styles, BrickInvariance, testing::ValuesIn(drawnStyles()),
+                         [](const auto& style) { return style.param; });
+
+TEST(BrickInvariance, TerminationAddsAtMostItsThreshold) {
+  ArraySource source = smoothVolume(gridOf({40, 40, 40}));
+  Scene scene = sceneWithStyle("all");
+  scene.layers[0].transferFunction = gentleTransferFunction(1.9);
+  scene = resolved(scene, source);
+  const Camera camera = resolveCamera(scene, {source.info().grid, false});
+  const Image<Rgba> whole = drawAlone(scene, source, camera);
+  for (const double threshold : {0.002, 0.05}) {
+    scene.quality.termination = threshold;
+    for (const int bricks : {1, 5, 13}) {
+      const Difference d = difference(whole, drawAlone(scene, source, camera, {.bricks = bricks}));
+      EXPECT_LE(d.largest, threshold + kLargest) << bricks;
+      EXPECT_GT(d.largest, 0.01 * threshold) << "nothing was terminated: the test shows nothing";
+    }
+  }
+}
+
+TEST(BrickInvariance, SameLayoutTwiceIsBitIdentical) {
+  ArraySource source = smoothVolume(gridOf({33, 30, 28}));
+  Scene scene = sceneWithStyle("all");
+  scene.quality.termination = 0.002;
+  scene = resolved(scene, source);
+  const Camera camera = resolveCamera(scene, {source.info().grid, false});
+  const Image<Rgba> first = drawAlone(scene, source, camera, {.bricks = 5});
+  const Image<Rgba> second = drawAlone(scene, source, camera, {.bricks = 5});
+  EXPECT_TRUE(std::ranges::equal(first.pixels(), second.pixels()));
+}
+
+TEST(BrickInvariance, OneGhostLayerLessThanDeclaredShows) {
+  ArraySource source = smoothVolume(gridOf({40, 40, 40}));
+  Scene scene = resolved(sceneWithStyle("light"), source);
+  const Camera camera = resolveCamera(scene, {source.info().grid, false});
+  const Image<Rgba> one = drawAlone(scene, source, camera, {.bricks = 1, .ghostLayers = 0});
+  const Image<Rgba> many = drawAlone(scene, source, camera, {.bricks = 8, .ghostLayers = 0});
+  EXPECT_GT(difference(one, many).largest, kLargest);
+}
+
+}  // namespace
+}  // namespace burin::test

@@ -1,0 +1,33 @@
+#include "cost_estimate.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/mpi_test.hpp"
+#include "support/scenes.hpp"
+
+namespace burin::node {
+namespace {
+
+TEST(CostEstimate, CountsVisibleBlocksAndAddsUp) {
+  // Dense material where x < 20 of 60 voxels: visible blocks are those that touch it.
+  const VolumeGrid grid = test::gridOf({60, 37, 50});
+  test::ArraySource source{grid, [](glm::ivec3 i) { return i.x < 20 ? 0.6f : 0.0f; }};
+  Scene scene = test::sceneWithStyle("plain");
+  resolveScene(scene, {grid, false});
+  const CostEstimate cost{surveyVolume(test::world(), source, false).blocks, grid, scene};
+  const glm::ivec3 cells = grid.cells();
+  // Voxel 19 is the last dense one: blocks [0,16) and [16,32) show, [32,59) do not.
+  const double section = double{1} * cells.y * cells.z;
+  EXPECT_NEAR(cost({{0, 0, 0}, cells}), section * (32 + 27 * CostEstimate::kEmptyCost), 1e-6);
+  EXPECT_NEAR(cost({{0, 0, 0}, {8, cells.y, cells.z}}), section * 8, 1e-6);
+  // Additive over any cut.
+  for (const int x : {1, 17, 33, 58})
+    for (const int z : {5, 31, 48}) {
+      const IndexBox low{{0, 3, 0}, {x, 20, z}};
+      const IndexBox high{{x, 3, 0}, {59, 20, z}};
+      EXPECT_NEAR(cost(low) + cost(high), cost({{0, 3, 0}, {59, 20, z}}), 1e-6);
+    }
+}
+
+}  // namespace
+}  // namespace burin::node

@@ -1,0 +1,89 @@
+#include "program_generator.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "burin/common/error.hpp"
+#include "burin/node/offscreen_context.hpp"
+#include "gl_program.hpp"
+#include "support/scenes.hpp"
+
+namespace burin::node {
+namespace {
+
+using test::sceneWithStyle;
+using testing::HasSubstr;
+using testing::Not;
+
+ShaderSource vertex() {
+  return expandIncludes("#version 450 core\n#include \"fullscreen.vert\"\n", "vertex program");
+}
+
+TEST(ProgramGenerator, HoldsOnlyWhatTheSceneUses) {
+  const std::string plain = generateRaycastProgram(sceneWithStyle("plain"), {}).text;
+  EXPECT_THAT(plain, Not(HasSubstr("apply_")));
+  EXPECT_THAT(plain, Not(HasSubstr("differencesToGradient")));
+  const std::string tone = generateRaycastProgram(sceneWithStyle("tone"), {}).text;
+  EXPECT_THAT(tone, HasSubstr("apply_tone"));
+  EXPECT_THAT(tone, Not(HasSubstr("apply_edges")));
+}
+
+TEST(ProgramGenerator, ValuesDoNotChangeTheText) {
+  Scene scene = sceneWithStyle("all");
+  const std::string before = generateRaycastProgram(scene, {}).text;
+  for (StyleSettings& style : scene.layers[0].styles)
+    for (ParameterValue& value : style.values)
+      if (auto* number = std::get_if<double>(&value)) *number *= 0.5;
+  scene.layers[0].transferFunction.points.pop_back();
+  EXPECT_EQ(generateRaycastProgram(scene, {}).text, before);
+}
+
+TEST(ProgramGenerator, EveryPermutationCompiles) {
+  const OffscreenContext context{{}};
+  std::vector<std::string> styles;
+  for (const StyleSpec& style : styleTable())
+    if (style.hasSnippet) styles.emplace_back(style.name);
+  for (unsigned set = 0; set < 1u << styles.size(); ++set) {
+    Scene scene = sceneWithStyle("plain");
+    for (std::size_t i = 0; i < styles.size(); ++i)
+      if ((set >> i & 1u) != 0)
+        scene.layers[0].styles.push_back(defaultSettings(*findStyle(styles[i])));
+    const ProgramOptions options{.invalidVoxels = set % 3 == 0, .countSamples = set % 4 == 0};
+    if (set % 5 == 0) scene.clip = {{{1, 0, 0}, 0}, {{0, 1, 0}, 0}};
+    EXPECT_NO_THROW((GlProgram{vertex(), generateRaycastProgram(scene, options)})) << set;
+  }
+}
+
+TEST(ProgramGenerator, EveryWordOfEveryStyleCompiles) {
+  const OffscreenContext context{{}};
+  for (const StyleSpec& style : styleTable())
+    for (std::size_t i = 0; i < style.parameters.size(); ++i)
+      for (const std::string_view word : style.parameters[i].choices) {
+        Scene scene = sceneWithStyle("light");
+        StyleSettings settings = defaultSettings(style);
+        settings.values[i] = std::string{word};
+        std::erase_if(scene.layers[0].styles,
+                      [&](const StyleSettings& s) { return s.name == style.name; });
+        scene.layers[0].styles.push_back(settings);
+        EXPECT_NO_THROW((GlProgram{vertex(), generateRaycastProgram(scene, {})}))
+            << style.name << " " << word;
+      }
+}
+
+TEST(GlProgram, ErrorsNameFileAndLine) {
+  const OffscreenContext context{{}};
+  const ShaderSource broken = expandIncludes(
+      "#version 450 core\n#define CLIP_PLANES 0\n#include \"lattice.glsl\"\nvoid main() {\n"
+      "  undeclared = 1.0;\n}\n",
+      "broken.frag");
+  try {
+    const GlProgram program{vertex(), broken};
+    FAIL() << "compiled";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("broken.frag:5"));
+    EXPECT_EQ(error.code(), ExitCode::kRank);
+  }
+}
+
+}  // namespace
+}  // namespace burin::node

@@ -1,0 +1,100 @@
+// The picture does not depend on the number of ranks: the whole way from the volume to rank 0's
+// frame on all ranks, against the same scene drawn by rank 0 alone.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "burin/compositor/composite.hpp"
+#include "support/drawing.hpp"
+#include "support/mpi_test.hpp"
+#include "support/scenes.hpp"
+
+namespace burin::test {
+namespace {
+
+// As in brick_invariance_test.cpp; the compositor adds rounding of over alone, 1e-7.
+constexpr double kLargest = 5e-5;
+constexpr double kRms = 2e-6;
+
+/// Collective. The frame in rank 0's memory; a value on rank 0 alone.
+std::optional<Image<Rgba>> drawTogether(node::Worker& worker, const Camera& camera) {
+  RankStatistics statistics;
+  compositor::Subimage<Rgba> mine = worker.draw(camera, statistics);
+  return compositor::compositeToRoot<compositor::Over>(world(), {}, worker.visibilityOrder(camera),
+                                                       std::move(mine), {}, statistics);
+}
+
+void expectSameAsAlone(const Scene& scene, node::BrickSource& source,
+                       const std::vector<Camera>& cameras, const node::WorkerOptions& options) {
+  node::Worker together{world(), scene, source, options};
+  std::optional<node::Worker> alone;
+  const Communicator self{MPI_COMM_SELF};
+  if (world().isRoot()) alone.emplace(self, scene, source, node::WorkerOptions{.bricks = 1});
+  for (const Camera& camera : cameras) {
+    const std::optional<Image<Rgba>> frame = drawTogether(together, camera);
+    ASSERT_EQ(frame.has_value(), world().isRoot());
+    if (!frame) continue;
+    RankStatistics statistics;
+    const Image<Rgba> one = wholeFrame(alone->draw(camera, statistics));
+    const Difference d = difference(one, *frame);
+    EXPECT_GT(largestAlpha(one), 0.3);
+    EXPECT_LE(d.largest, kLargest) << scene.layers[0].name;
+    EXPECT_LE(d.rms, kRms) << scene.layers[0].name;
+  }
+}
+
+std::vector<Camera> cameras(Scene scene, const VolumeGrid& grid) {
+  std::vector<Camera> result;
+  for (const Projection projection : {Projection::kPerspective, Projection::kOrthographic}) {
+    scene.camera = {.azimuthDeg = 35, .elevationDeg = 25, .projection = projection};
+    result.push_back(resolveCamera(scene, {grid, false}));
+  }
+  scene.camera = {.verticalFovDeg = 90};
+  scene.camera.eye = grid.centreWorld() + glm::dvec3{1, -2, 0.5};
+  scene.camera.target = grid.centreWorld() + glm::dvec3{10, 8, 3};
+  result.push_back(resolveCamera(scene, {grid, false}));
+  return result;
+}
+
+TEST(RankInvariance, EveryStyle) {
+  ArraySource source = smoothVolume(gridOf({46, 37, 29}, {1.0, 0.8, 1.9}));
+  for (const std::string& style : drawnStyles()) {
+    const Scene scene = resolved(sceneWithStyle(style), source);
+    expectSameAsAlone(scene, source, cameras(scene, source.info().grid), {});
+  }
+}
+
+TEST(RankInvariance, MoreBricksThanRanks) {
+  ArraySource source = smoothVolume(gridOf({40, 40, 30}));
+  const Scene scene = resolved(sceneWithStyle("all"), source);
+  expectSameAsAlone(scene, source, cameras(scene, source.info().grid), {.bricks = 21});
+}
+
+TEST(RankInvariance, DedicatedHost) {
+  if (world().size() == 1) GTEST_SKIP() << "a dedicated host needs a second rank";
+  ArraySource source = smoothVolume(gridOf({40, 40, 30}));
+  const Scene scene = resolved(sceneWithStyle("tone"), source);
+  expectSameAsAlone(scene, source, cameras(scene, source.info().grid), {.dedicatedHost = true});
+}
+
+TEST(RankInvariance, MoreRanksThanCells) {
+  ArraySource source = smoothVolume(gridOf({3, 2, 2}, {10, 10, 10}));  // two cells
+  const Scene scene = resolved(sceneWithStyle("plain"), source);
+  expectSameAsAlone(scene, source, cameras(scene, source.info().grid), {});
+}
+
+TEST(RankInvariance, SameLayoutTwiceIsBitIdentical) {
+  ArraySource source = smoothVolume(gridOf({40, 40, 30}));
+  const Scene scene = resolved(sceneWithStyle("all"), source);
+  const Camera camera = cameras(scene, source.info().grid).front();
+  node::Worker first{world(), scene, source, {}};
+  node::Worker second{world(), scene, source, {}};
+  const auto a = drawTogether(first, camera);
+  const auto b = drawTogether(second, camera);
+  ASSERT_EQ(a.has_value(), world().isRoot());
+  if (!a) return;
+  EXPECT_TRUE(std::ranges::equal(a->pixels(), b->pixels()));
+}
+
+}  // namespace
+}  // namespace burin::test

@@ -1,0 +1,21 @@
+# Drawing. A Worker is collective, so even programs for one rank run under MPI.
+function(burin_add_renderer_test name)
+  burin_add_mpi_test(${name} SOURCES ${name}.cpp
+    LIBRARIES burin::node burin::reference burin_gl_loader LABELS node gl ${ARGN})
+  target_include_directories(${name} PRIVATE ${CMAKE_SOURCE_DIR}/node/src)
+endfunction()
+
+burin_add_renderer_test(brick_invariance_test RANKS 1 TIMEOUT 300)
+burin_add_renderer_test(rank_invariance_test RANKS 1 2 3 4 5 8 TIMEOUT 300)
+burin_add_renderer_test(skipping_test RANKS 1 TIMEOUT 120)
+burin_add_renderer_test(against_reference_test RANKS 1 TIMEOUT 300)
+burin_add_renderer_test(voxel_types_test RANKS 1 TIMEOUT 120)
+burin_add_renderer_test(program_generator_test RANKS 1 TIMEOUT 120)
+burin_add_renderer_test(macrocells_test RANKS 1)
+burin_add_renderer_test(transfer_table_test RANKS 1)
+burin_add_renderer_test(cost_estimate_test RANKS 1 3)
+
+# One scene on 13 ranks: an odd count far above the cores.
+add_test(NAME rank_invariance_test_13 COMMAND ${BURIN_MPIRUN} -n 13
+  $<TARGET_FILE:rank_invariance_test> --gtest_filter=RankInvariance.MoreBricksThanRanks)
+burin_set_test(rank_invariance_test_13 TIMEOUT 120 PROCESSORS 2 LABELS node gl mpi)

@@ -1,0 +1,16 @@
+# Brick sources, the volume writer and the survey.
+burin_add_test(volume_test
+  SOURCES volume_formats_test.cpp volume_orientation_test.cpp volume_error_test.cpp
+          raw_name_test.cpp volume_writer_test.cpp procedural_test.cpp
+  LIBRARIES burin::volumes ZLIB::ZLIB
+  LABELS node sanitize TIMEOUT 120)
+target_include_directories(volume_test PRIVATE ${PROJECT_SOURCE_DIR}/node/src)
+
+burin_add_mpi_test(survey_test RANKS 1 2 3 5
+  SOURCES survey_test.cpp read_slabs_test.cpp
+  LIBRARIES burin::volumes ZLIB::ZLIB
+  LABELS node sanitize TIMEOUT 120)
+burin_add_mpi_test(real_volume_test RANKS 2
+  SOURCES real_volume_test.cpp
+  LIBRARIES burin::volumes ZLIB::ZLIB
+  LABELS node TIMEOUT 120)
