@@ -122,6 +122,10 @@ void waitIdle(std::span<MPI_Request> requests, const char* what) {
   });
 }
 
+void waitUntil(const std::function<bool()>& isDone) {
+  pollIdly(isDone);
+}
+
 int mpiCount(std::size_t count) {
   constexpr auto kLargest = std::numeric_limits<int>::max();
   if (count > static_cast<std::size_t>(kLargest)) {

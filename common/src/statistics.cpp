@@ -42,9 +42,22 @@ Json rankJson(const RankStatistics& rank, bool samplesCounted) {
   json["bytes_sent"] = rank.bytesSent;
   json["bytes_received"] = rank.bytesReceived;
   json["messages_sent"] = rank.messagesSent;
+  json["bytes_to_root"] = rank.bytesToRoot;
+  json["bytes_by_reference"] = rank.bytesByReference;
+  json["bytes_packed_away"] = rank.bytesPackedAway;
   json["active_pixels"] = rank.activePixels;
   json["resident_voxel_bytes"] = rank.residentVoxelBytes;
   json["peak_rss_bytes"] = rank.peakRssBytes;
+  return json;
+}
+
+Json compositeJson(const CompositeStatistics& composite) {
+  Json json;
+  json["schedule"] = composite.schedule;
+  json["wire"] = composite.wire;
+  json["participants"] = composite.participants;
+  json["hosts"] = composite.hosts;
+  json["packed"] = composite.isPacked;
   return json;
 }
 
@@ -52,6 +65,7 @@ Json frameJson(const FrameStatistics& frame, bool samplesCounted) {
   Json json;
   json["frame_ms"] = frame.frameMs;
   json["phases_ms"] = phasesJson(frame.phases);
+  if (!frame.composite.schedule.empty()) json["composite"] = compositeJson(frame.composite);
   json["ranks"] = Json::array();
   for (const RankStatistics& rank : frame.ranks) {
     json["ranks"].push_back(rankJson(rank, samplesCounted));

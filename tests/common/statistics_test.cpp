@@ -22,6 +22,9 @@ RunStatistics twoFramesOnTwoRanks() {
   rank.bytesSent = 14;
   rank.bytesReceived = 15;
   rank.messagesSent = 16;
+  rank.bytesToRoot = 20;
+  rank.bytesByReference = 21;
+  rank.bytesPackedAway = 22;
   rank.activePixels = 17;
   rank.residentVoxelBytes = std::int64_t{5} << 32;  // beyond 32 bits
   rank.peakRssBytes = 19;
@@ -63,9 +66,24 @@ TEST(StatisticsJson, FollowsTheContract) {
                         {"bytes_sent", 14},
                         {"bytes_received", 15},
                         {"messages_sent", 16},
+                        {"bytes_to_root", 20},
+                        {"bytes_by_reference", 21},
+                        {"bytes_packed_away", 22},
                         {"active_pixels", 17},
                         {"resident_voxel_bytes", std::int64_t{5} << 32},
                         {"peak_rss_bytes", 19}}));
+}
+
+TEST(StatisticsJson, SaysHowAFrameWasMerged) {
+  RunStatistics run = twoFramesOnTwoRanks();
+  run.frames[1].composite = {"radix-k", "half", 2, 3, true};
+  const Json json = Json::parse(statisticsJson(run));
+  EXPECT_FALSE(json.at("frames").at(0).contains("composite"));  // nothing was merged
+  EXPECT_EQ(json.at("frames").at(1).at("composite"), (Json{{"schedule", "radix-k"},
+                                                           {"wire", "half"},
+                                                           {"participants", 2},
+                                                           {"hosts", 3},
+                                                           {"packed", true}}));
 }
 
 TEST(StatisticsJson, LeavesOutWhatWasNotCounted) {

@@ -63,6 +63,8 @@ void checkMpi(int code, const char* call);
 /// error.
 MPI_Status waitIdle(MPI_Request& request, const char* what = "a message");
 void waitIdle(std::span<MPI_Request> requests, const char* what = "messages");
+/// Likewise, until `isDone()`, which does the testing.
+void waitUntil(const std::function<bool()>& isDone);
 
 /// Narrows to the counts MPI takes. Throws Error{kRank} above their range.
 int mpiCount(std::size_t count);

@@ -34,12 +34,36 @@ constexpr Rgba over(const Rgba& front, const Rgba& back) {
   return {front.r + t * back.r, front.g + t * back.g, front.b + t * back.b, front.a + t * back.a};
 }
 
+/// An image whose pixels lie somewhere else. Rows top to bottom, pixels left to right.
+template <typename Pixel>
+class ImageView {
+ public:
+  ImageView() = default;
+  /// `pixels`: size.pixels() of them.
+  ImageView(ImageSize size, std::span<Pixel> pixels) : size_{size}, pixels_{pixels} {}
+  ImageSize size() const { return size_; }
+  std::span<Pixel> pixels() const { return pixels_; }
+  std::span<Pixel> row(int y) const {
+    return pixels_.subspan(offset(y), static_cast<std::size_t>(size_.width));
+  }
+  Pixel& at(int x, int y) const { return pixels_[offset(y) + static_cast<std::size_t>(x)]; }
+
+ private:
+  std::size_t offset(int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(size_.width);
+  }
+  ImageSize size_{0, 0};
+  std::span<Pixel> pixels_;
+};
+
 /// Rows top to bottom, pixels left to right.
 template <typename Pixel>
 class Image {
  public:
   Image() = default;
   explicit Image(ImageSize size) : size_{size}, pixels_(size.pixels()) {}
+  operator ImageView<const Pixel>() const { return {size_, pixels_}; }
+  operator ImageView<Pixel>() { return {size_, pixels_}; }
   ImageSize size() const { return size_; }
   std::span<Pixel> pixels() { return pixels_; }
   std::span<const Pixel> pixels() const { return pixels_; }

@@ -29,14 +29,27 @@ struct RankStatistics {
   std::int64_t bytesSent = 0;
   std::int64_t bytesReceived = 0;
   std::int64_t messagesSent = 0;
+  std::int64_t bytesToRoot = 0;       ///< of bytesSent, finished pixels for the gather
+  std::int64_t bytesByReference = 0;  ///< of bytesSent, pixels the receiver read in shared memory
+  std::int64_t bytesPackedAway = 0;   ///< what zstd saved; not in bytesSent
   std::int64_t activePixels = 0;
   std::int64_t residentVoxelBytes = 0;
   std::int64_t peakRssBytes = 0;
 };
 
+/// How a frame's subimages were merged: what was asked for or chosen.
+struct CompositeStatistics {
+  std::string schedule;  ///< "swap", "radix-k", "direct", "serial"; "" if nothing was merged
+  std::string wire;      ///< "float" or "half"
+  int participants = 0;  ///< ranks with pixels where others have some
+  int hosts = 1;
+  bool isPacked = false;  ///< pixels that left a host went through zstd
+};
+
 struct FrameStatistics {
   double frameMs = 0;  ///< from "camera known" to "finished image in rank 0's memory"
   PhaseTimes phases;   ///< rank 0's view: what the user waits for
+  CompositeStatistics composite;
   std::vector<RankStatistics> ranks;
 };
 
