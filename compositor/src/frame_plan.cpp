@@ -1,98 +1,143 @@
 #include "burin/compositor/frame_plan.hpp"
 
-#include <cstdint>
-
-#include "burin/compositor/share_header.hpp"
+#include <algorithm>
+#include <numeric>
 
 namespace burin::compositor {
 
 namespace {
 
-/// What goes through the all-gather. No padding: it is sent as bytes.
-struct Notice {
-  std::uint64_t agreement;  ///< hash of what must be the same everywhere
-  std::int32_t x0, y0, x1, y1;
-  std::int64_t hasFailed;
+/// The first index with `values[index] == value`, -1 if there is none.
+template <typename T>
+int indexOf(const std::vector<T>& values, const T& value) {
+  const auto it = std::ranges::find(values, value);
+  return it == values.end() ? -1 : static_cast<int>(it - values.begin());
+}
+
+/// Who takes part in the schedule and what it is.
+struct Roles {
+  std::vector<int> participants;
+  ScheduleOptions schedule;
 };
 
-/// FNV-1a over numbers: two ranks that call with different arguments must not go on, since their
-/// messages would not match.
-class Hash {
- public:
-  void add(int number) { value_ = (value_ ^ static_cast<std::uint32_t>(number)) * 0x100000001b3U; }
-  std::uint64_t value() const { return value_; }
-
- private:
-  std::uint64_t value_ = 0xcbf29ce484222325U;
-};
-
-Notice noticeOf(const CompositeOptions& options, std::span<const Rank> order,
-                const Announcement& mine) {
-  Hash hash;
-  hash.add(mine.frame.width);
-  hash.add(mine.frame.height);
-  hash.add(static_cast<int>(options.schedule));
-  hash.add(static_cast<int>(options.root));
-  for (const Rank rank : order) hash.add(static_cast<int>(rank));
-  const PixelRect& r = mine.active;
-  return {hash.value(), r.x0, r.y0, r.x1, r.y1, mine.outcome.failed ? 1 : 0};
-}
-
-PixelRect activeRect(const Notice& notice) {
-  return {notice.x0, notice.y0, notice.x1, notice.y1};
-}
-
-void checkAgreement(std::span<const Notice> notices) {
-  for (std::size_t rank = 1; rank < notices.size(); ++rank) {
-    if (notices[rank].agreement != notices[0].agreement) {
-      fail(ExitCode::kRank,
-           "compositing: rank {} and rank 0 differ in frame size, options or visibility order",
-           rank);
+Roles rolesOf(const CompositeOptions& options, LinkClass link, const TileGrid& grid,
+              const FramePlan& plan, std::int64_t activePixels, std::size_t pixelBytes) {
+  Roles roles;
+  if (plan.coverage.empty()) {
+    roles.participants.resize(plan.contributors.size());
+    std::iota(roles.participants.begin(), roles.participants.end(), 0);
+  } else {
+    const auto isContested = contestedContributors(plan.coverage);
+    for (std::size_t i = 0; i < isContested.size(); ++i) {
+      if (isContested[i]) roles.participants.push_back(static_cast<int>(i));
     }
   }
+  if (options.schedule) {
+    roles.schedule = *options.schedule;
+  } else if (!roles.participants.empty()) {
+    roles.schedule = chooseSchedule(static_cast<int>(roles.participants.size()),
+                                    static_cast<std::size_t>(activePixels), grid.frame().pixels(),
+                                    link, pixelBytes);
+  }
+  return roles;
 }
 
-/// Which ranks `order` names. All ranks have the same order by now, so all of them throw.
-std::vector<bool> ranksOf(std::span<const Rank> order, int size) {
-  std::vector<bool> isNamed(static_cast<std::size_t>(size), false);
-  for (const Rank rank : order) {
-    const int index = static_cast<int>(rank);
-    if (index < 0 || index >= size) {
-      fail(ExitCode::kRank, "visibility order: rank 0 … {} expected, {} given", size - 1, index);
-    }
-    if (isNamed[static_cast<std::size_t>(index)]) {
-      fail(ExitCode::kRank, "visibility order: rank {} is named twice", index);
-    }
-    isNamed[static_cast<std::size_t>(index)] = true;
+PieceMap pieceMap(const FramePlan& plan) {
+  const int participants = static_cast<int>(plan.participants.size());
+  PieceMap map;
+  map.pieces =
+      participants == 0 ? 0 : static_cast<std::size_t>(pieceCount(plan.schedule, participants));
+  if (plan.coverage.empty()) return map;  // pieces are cut by sums, not given to owners
+  map.holder.resize(plan.contributors.size());
+  std::iota(map.holder.begin(), map.holder.end(), 0);
+  map.piece.assign(plan.contributors.size(), -1);
+  for (int i = 0; i < participants; ++i) {
+    const auto contributor =
+        static_cast<std::size_t>(plan.participants[static_cast<std::size_t>(i)]);
+    map.piece[contributor] = pieceOf(plan.schedule, participants, i);
+    map.holder[contributor] =
+        plan.participants[static_cast<std::size_t>(holderOf(plan.schedule, participants, i))];
   }
-  return isNamed;
+  return map;
 }
 
 }  // namespace
 
-FramePlan planFrame(const Communicator& comm, const CompositeOptions& options,
-                    std::span<const Rank> order, const Announcement& mine, std::size_t pixelBytes) {
-  const auto notices = allGather(comm, noticeOf(options, order, mine));
-  for (const Notice& notice : notices) {
-    if (notice.hasFailed != 0) agree(comm, "drawing", mine.outcome);  // throws
+int FramePlan::contributorOf(Rank rank) const {
+  return indexOf(contributors, rank);
+}
+
+int FramePlan::participantOf(int contributor) const {
+  return indexOf(participants, contributor);
+}
+
+Region FramePlan::owned(int contributor) const {
+  const int participant = participantOf(contributor);
+  if (participant < 0) return {};
+  const int piece = pieceOf(schedule, static_cast<int>(participants.size()), participant);
+  if (piece < 0) return {};
+  const auto index = static_cast<std::size_t>(piece);
+  return {assignment.cuts[index], assignment.cuts[index + 1]};
+}
+
+Plan FramePlan::planOf(int participant) const {
+  Plan plan =
+      makePlan(schedule, static_cast<int>(participants.size()), assignment.cuts, participant);
+  std::erase_if(plan.steps, [&](const Step& step) {
+    return isSilent(step.kind == Step::Kind::kSend ? participant : step.peer, step.region);
+  });
+  return plan;
+}
+
+bool FramePlan::isSilent(int sender, const Region& region) const {
+  const bool sendsWhatItDrew =
+      schedule.kind == ScheduleKind::kDirectSend || schedule.kind == ScheduleKind::kSerialGather;
+  if (!sendsWhatItDrew || coverage.empty()) return false;
+  const Coverage& drawn =
+      coverage[static_cast<std::size_t>(participants[static_cast<std::size_t>(sender)])];
+  const std::size_t step = Coverage::tilesPerCell(grid);
+  for (std::size_t position = region.begin; position < region.end; ++position) {
+    if (drawn[assignment.tiles[position] / step] != 0) return false;
   }
-  checkAgreement(notices);
-  const auto isInOrder = ranksOf(order, comm.size());
-  FramePlan plan{mine.frame, {}, {}, options.schedule, -1};
-  for (std::size_t rank = 0; rank < notices.size(); ++rank) {
-    const PixelRect rect = activeRect(notices[rank]);
-    if (rect.empty()) continue;
-    if (!isInOrder[rank]) {
-      fail(ExitCode::kRank, "visibility order: rank {} drew something but is not in it", rank);
-    }
-    plan.bounds = boundingRect(plan.bounds, rect);
-  }
-  mpiCount(shareBytes(plan.bounds.pixels(), pixelBytes));
+  return true;
+}
+
+FramePlan makeFramePlan(const CompositeOptions& options, LinkClass link, const TileGrid& grid,
+                        std::span<const Rank> order, std::span<const Contribution> byRank,
+                        std::span<const std::int64_t> total, std::size_t pixelBytes) {
+  FramePlan plan;
+  plan.grid = grid;
+  const bool hasCoverage = byRank.size() <= static_cast<std::size_t>(kMostRanksWithCoverage);
+  std::int64_t activePixels = 0;
+  const auto add = [&](Rank rank) {
+    const Contribution& contribution = byRank[static_cast<std::size_t>(rank)];
+    plan.contributors.push_back(rank);
+    if (hasCoverage) plan.coverage.push_back(contribution.coverage);
+    activePixels += contribution.activePixels;
+  };
   for (const Rank rank : order) {
-    if (activeRect(notices[static_cast<std::size_t>(rank)]).empty()) continue;
-    if (rank == comm.rank()) plan.self = plan.participants();
-    plan.ranks.push_back(rank);
+    if (byRank[static_cast<std::size_t>(rank)].activePixels > 0) add(rank);
   }
+  Roles roles = rolesOf(options, link, grid, plan, activePixels, pixelBytes);
+  if (roles.schedule.kind == ScheduleKind::kSerialGather && !roles.participants.empty()) {
+    // The root collects, whether or not it drew: at the back, where nothing is as good as anywhere.
+    int root = plan.contributorOf(options.root);
+    if (root < 0) {
+      root = static_cast<int>(plan.contributors.size());
+      add(options.root);
+    }
+    if (indexOf(roles.participants, root) < 0) {
+      roles.participants.push_back(root);
+      std::ranges::sort(roles.participants);
+    }
+    roles.schedule.collector = indexOf(roles.participants, root);
+  }
+  plan.participants = std::move(roles.participants);
+  plan.schedule = std::move(roles.schedule);
+  const PieceMap pieces = pieceMap(plan);
+  plan.assignment = hasCoverage
+                        ? assignTiles(grid, plan.coverage, pieces)
+                        : balanceTiles(grid, total, pieces.pieces, plan.contributors.size());
   return plan;
 }
 

@@ -3,200 +3,209 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
-#include <map>
+#include <deque>
 #include <utility>
 #include <vector>
+
+#include "held_regions.hpp"
+#include "messages_in_flight.hpp"
+#include "plan_store.hpp"
 
 namespace burin::compositor {
 
 namespace {
 
-/// Pixels [begin, end) that hold the combination of participants [front, back).
-struct Piece {
-  std::size_t begin, end;
-  int front, back;
-};
-/// Disjoint pieces by first pixel.
-using Pieces = std::vector<Piece>;
+constexpr int kNobody = -1;
 
-/// The first piece that begins at or after `number`.
-Pieces::iterator firstFrom(Pieces& pieces, std::size_t number) {
-  return std::ranges::lower_bound(pieces, number, {}, &Piece::begin);
-}
-
-/// Makes `number` a border between pieces.
-void splitAt(Pieces& pieces, std::size_t number) {
-  auto it = firstFrom(pieces, number);
-  if (it == pieces.begin() || std::prev(it)->end <= number) return;
-  Piece upper = *std::prev(it);
-  std::prev(it)->end = number;
-  upper.begin = number;
-  pieces.insert(it, upper);
-}
-
-/// Takes the pieces of `region` out; nullopt if not all of it is there.
-std::optional<Pieces> take(Pieces& pieces, const Region& region) {
-  splitAt(pieces, region.begin);
-  splitAt(pieces, region.end);
-  std::size_t next = region.begin;
-  const auto first = firstFrom(pieces, region.begin);
-  auto last = first;
-  while (last != pieces.end() && last->begin == next && next < region.end) {
-    next = last->end;
-    ++last;
-  }
-  if (next != region.end) return std::nullopt;
-  Pieces taken(first, last);
-  pieces.erase(first, last);
-  return taken;
-}
-
-/// Pixelwise combination of two lists that cover the same region; nullopt if some pixels are not
-/// neighbours in visibility order.
-std::optional<Pieces> combine(Pieces front, Pieces back) {
-  for (const Piece& piece : Pieces{front}) splitAt(back, piece.begin);
-  for (const Piece& piece : back) splitAt(front, piece.begin);
-  for (std::size_t i = 0; i < front.size(); ++i) {
-    if (front[i].back != back[i].front) return std::nullopt;
-    front[i].back = back[i].back;
-  }
-  return front;
-}
-
-struct Message {
-  Region region;
-  Pieces pieces;
+/// Between rounds a participant holds the combination of one block wherever it holds anything: a
+/// round leaves it with the round's region only.
+struct State {
+  State(HeldRegions all, Block alone) : held{std::move(all)}, block{alone} {}
+  HeldRegions held;
+  Block block;
+  std::size_t next = 0;   ///< step it is at; within a round: the first not arrived yet
+  std::size_t round = 0;  ///< first step of the round it is in
+  bool isInRound = false;
+  bool isAtEnd = false;
+  int waitsFor = kNobody;  ///< whose message has not been sent yet
+  Region owned;
+  MessagesInFlight inbox;
 };
 
 class Simulation {
  public:
-  explicit Simulation(const Schedule& schedule) : schedule_{schedule}, next_(size(), 0) {
-    for (std::size_t i = 0; i < size(); ++i) {
-      const int self = static_cast<int>(i);
-      Pieces held;
-      if (!schedule.all.empty()) {
-        held.push_back({schedule.all.begin, schedule.all.end, self, self + 1});
-      }
-      held_.push_back(std::move(held));
+  explicit Simulation(const LazySchedule& schedule) : schedule_{schedule}, plans_{schedule} {
+    states_.reserve(static_cast<std::size_t>(schedule.participants));
+    for (int i = 0; i < schedule.participants; ++i) {
+      states_.emplace_back(HeldRegions{schedule.all}, Block{i, i + 1});
+      ready_.push_back(i);
     }
   }
 
   std::optional<std::string> run() {
-    for (bool hasMoved = true; hasMoved;) {
-      hasMoved = false;
-      for (std::size_t self = 0; self < size(); ++self) {
-        while (next_[self] < steps(self).size()) {
-          const auto result = advance(self);
-          if (result == Result::kProblem) return problem_;
-          if (result == Result::kWaits) break;
-          hasMoved = true;
-        }
-      }
+    while (!ready_.empty() && problem_.empty()) {
+      const int self = ready_.front();
+      ready_.pop_front();
+      advance(self);
     }
-    return problemAtEnd();
+    if (problem_.empty()) checkEnds();
+    if (problem_.empty()) checkCoverage();
+    if (problem_.empty()) return std::nullopt;
+    return problem_;
   }
 
  private:
-  enum class Result { kDone, kWaits, kProblem };
+  State& state(int participant) { return states_[static_cast<std::size_t>(participant)]; }
 
-  std::size_t size() const { return schedule_.plans.size(); }
-  const std::vector<Step>& steps(std::size_t self) const { return schedule_.plans[self].steps; }
-
-  Result problem(std::size_t self, const char* what) {
-    problem_ = fmt::format("participant {}, step {}: {}", self, next_[self], what);
-    return Result::kProblem;
+  void problem(int self, std::size_t step, std::string_view what) {
+    problem_ = fmt::format("participant {}, step {}: {}", self, step, what);
   }
 
-  Result advance(std::size_t self) {
-    const Step& step = steps(self)[next_[self]];
-    const auto peer = static_cast<std::size_t>(step.peer);
-    if (step.peer < 0 || peer >= size() || peer == self) return problem(self, "no such peer");
-    if (step.region.empty()) return problem(self, "an empty region");
-    const Result result =
-        step.kind == Step::Kind::kSend ? send(self, peer, step.region) : receive(self, peer, step);
-    if (result == Result::kDone) ++next_[self];
-    return result;
-  }
-
-  Result send(std::size_t self, std::size_t peer, const Region& region) {
-    auto pieces = take(held_[self], region);
-    if (!pieces) return problem(self, "sends pixels it does not hold");
-    underway_[{self, peer}].push_back({region, std::move(*pieces)});
-    return Result::kDone;
-  }
-
-  Result receive(std::size_t self, std::size_t peer, const Step& step) {
-    auto& queue = underway_[{peer, self}];
-    if (queue.empty()) return Result::kWaits;
-    Message message = std::move(queue.front());
-    queue.erase(queue.begin());
-    if (message.region != step.region) return problem(self, "receives a region it did not expect");
-    auto mine = take(held_[self], step.region);
-    if (!mine) return problem(self, "combines pixels it does not hold");
-    if (!held_[self].empty()) return problem(self, "drops pixels that nobody was sent");
-    auto combined = step.peerIsInFront ? combine(std::move(message.pieces), std::move(*mine))
-                                       : combine(std::move(*mine), std::move(message.pieces));
-    if (!combined) return problem(self, "combines pixels that are no neighbours");
-    held_[self] = std::move(*combined);
-    return Result::kDone;
-  }
-
-  std::optional<std::string> problemAtEnd() {
-    for (std::size_t self = 0; self < size(); ++self) {
-      if (next_[self] < steps(self).size()) {
-        return fmt::format("participant {}, step {}: waits for ever", self, next_[self]);
+  /// As far as it gets without waiting.
+  void advance(int self) {
+    const Plan& plan = plans_.get(self);
+    State& mine = state(self);
+    mine.waitsFor = kNobody;
+    while (mine.next < plan.steps.size() && mine.waitsFor == kNobody && problem_.empty()) {
+      const Step& step = plan.steps[mine.next];
+      if (!isValid(self, step)) return;
+      if (step.kind == Step::Kind::kSend) {
+        send(self, step);
+      } else {
+        await(self, plan.steps);
       }
     }
-    for (const auto& [pair, queue] : underway_) {
-      if (!queue.empty()) {
-        return fmt::format("participant {} sends to {} what is never received", pair.first,
-                           pair.second);
-      }
-    }
-    std::map<std::size_t, std::size_t> owned;  // begin -> end
-    for (std::size_t self = 0; self < size(); ++self) {
-      const Region& region = schedule_.plans[self].owned;
-      for (const Piece& piece : held_[self]) {
-        if (piece.begin < region.begin || piece.end > region.end) {
-          return fmt::format("participant {} is left with pixels it does not own", self);
-        }
-        if (piece.front != 0 || piece.back != static_cast<int>(size())) {
-          return fmt::format("participant {} owns pixels that are not complete", self);
-        }
-      }
-      if (region.empty()) continue;
-      if (!take(held_[self], region)) {
-        return fmt::format("participant {} does not hold what it owns", self);
-      }
-      if (!owned.emplace(region.begin, region.end).second) {
-        return fmt::format("participant {} owns what another owns", self);
-      }
-    }
-    return coverageProblem(owned);
+    mine.isAtEnd = mine.next == plan.steps.size();
+    mine.owned = plan.owned;
   }
 
-  std::optional<std::string> coverageProblem(const std::map<std::size_t, std::size_t>& owned) {
+  bool isValid(int self, const Step& step) {
+    const std::size_t at = state(self).next;
+    if (step.peer < 0 || step.peer >= schedule_.participants || step.peer == self) {
+      problem(self, at, "no such peer");
+    } else if (step.region.empty()) {
+      problem(self, at, "an empty region");
+    } else if (step.kind == Step::Kind::kReceive && step.peerIsInFront != (step.peer < self)) {
+      problem(self, at, "takes front for back");
+    }
+    return problem_.empty();
+  }
+
+  void send(int self, const Step& step) {
+    State& mine = state(self);
+    State& theirs = state(step.peer);
+    if (!mine.held.take(step.region)) {
+      return problem(self, mine.next, "sends pixels it does not hold");
+    }
+    theirs.inbox.add({self, step.region, mine.block});
+    if (theirs.waitsFor == self) {
+      theirs.waitsFor = kNobody;
+      ready_.push_back(step.peer);
+    }
+    ++mine.next;
+  }
+
+  /// Goes on in a round until one has not sent yet or all have; then combines.
+  void await(int self, const std::vector<Step>& steps) {
+    State& mine = state(self);
+    if (!mine.isInRound) mine.round = mine.next;
+    mine.isInRound = true;
+    const std::size_t end = roundEnd(steps, mine.round);
+    for (; mine.next < end; ++mine.next) {
+      const Step& step = steps[mine.next];
+      if (!isValid(self, step)) return;
+      const auto region = mine.inbox.regionFrom(step.peer);
+      if (!region) {
+        mine.waitsFor = step.peer;
+        return;
+      }
+      if (*region != step.region) {
+        return problem(self, mine.next, "receives a region it did not expect");
+      }
+    }
+    mine.isInRound = false;
+    combine(self, std::span{steps}.subspan(mine.round, end - mine.round));
+  }
+
+  void combine(int self, std::span<const Step> round) {
+    State& mine = state(self);
+    const Region& region = round.front().region;
+    if (!mine.held.contains(region)) {
+      return problem(self, mine.round, "combines pixels it does not hold");
+    }
+    if (!mine.held.isExactly(region)) {
+      return problem(self, mine.round, "drops pixels that nobody was sent");
+    }
+    std::vector<std::pair<int, Block>> parts{{self, mine.block}};
+    for (const Step& step : round) {
+      if (!mine.inbox.regionFrom(step.peer)) {
+        return problem(self, mine.round, "receives twice from one in a round");
+      }
+      parts.emplace_back(step.peer, mine.inbox.take(step.peer).block);
+    }
+    std::ranges::sort(parts, {}, &std::pair<int, Block>::first);
+    for (std::size_t i = 1; i < parts.size(); ++i) {
+      if (parts[i - 1].second.back != parts[i].second.front) {
+        return problem(self, mine.round, "combines pixels that are no neighbours");
+      }
+    }
+    mine.block = {parts.front().second.front, parts.back().second.back};
+  }
+
+  void checkEnds() {
+    for (int self = 0; self < schedule_.participants; ++self) {
+      const State& mine = state(self);
+      if (!mine.isAtEnd) return problem(self, mine.next, "waits for ever");
+    }
+    for (int self = 0; self < schedule_.participants && problem_.empty(); ++self) checkEnd(self);
+  }
+
+  void checkEnd(int self) {
+    const State& mine = state(self);
+    if (!mine.inbox.empty()) {
+      problem_ = fmt::format("participant {} sends to {} what is never received",
+                             mine.inbox.anySender(), self);
+    } else if (!mine.owned.empty() && !mine.held.contains(mine.owned)) {
+      problem_ = fmt::format("participant {} does not hold what it owns", self);
+    } else if (!mine.held.isExactly(mine.owned)) {
+      problem_ = fmt::format("participant {} is left with pixels it does not own", self);
+    } else if (!mine.owned.empty() && mine.block != Block{0, schedule_.participants}) {
+      problem_ = fmt::format("participant {} owns pixels that are not complete", self);
+    }
+  }
+
+  void checkCoverage() {
+    std::vector<Region> owned;
+    for (const State& state : states_) {
+      if (!state.owned.empty()) owned.push_back(state.owned);
+    }
+    std::ranges::sort(owned, {}, &Region::begin);
+    owned.push_back({schedule_.all.end, schedule_.all.end});
     std::size_t next = schedule_.all.begin;
-    for (const auto& [begin, end] : owned) {
-      if (begin != next) return fmt::format("pixels from {} on are owned by none or two", next);
-      next = end;
+    for (const Region& region : owned) {
+      if (region.begin != next) {
+        problem_ = fmt::format("position {} is owned by none or two", std::min(next, region.begin));
+        return;
+      }
+      next = region.end;
     }
-    if (next != schedule_.all.end) return fmt::format("pixels from {} on are owned by none", next);
-    return std::nullopt;
   }
 
-  const Schedule& schedule_;
-  std::vector<Pieces> held_;
-  std::vector<std::size_t> next_;  ///< step each participant is at
-  std::map<std::pair<std::size_t, std::size_t>, std::vector<Message>> underway_;
-  std::string problem_;
+  const LazySchedule& schedule_;
+  PlanStore plans_;
+  std::vector<State> states_;
+  std::deque<int> ready_;  ///< first in, first out: rarely is anyone woken before all have sent
+  std::string problem_;    ///< the first one found
 };
 
 }  // namespace
 
-std::optional<std::string> scheduleProblem(const Schedule& schedule) {
+std::optional<std::string> scheduleProblem(const LazySchedule& schedule) {
   return Simulation{schedule}.run();
+}
+
+std::optional<std::string> scheduleProblem(const Schedule& schedule) {
+  return scheduleProblem(lazySchedule(schedule));
 }
 
 }  // namespace burin::compositor

@@ -1,4 +1,4 @@
-#include <burin/compositor/composite.hpp>
+#include <burin/compositor/compositor.hpp>
 #include <cstdio>
 
 using namespace burin;
@@ -11,8 +11,8 @@ int main(int argc, char** argv) {
   const Rank order[] = {Rank{0}, Rank{1}};
   const compositor::Subimage<Rgba> mine{{1, 1}, {0, 0, 1, 1}, {{0.1f, 0.2f, 0.3f, 0.5f}}};
   RankStatistics statistics;
-  const auto frame =
-      compositor::compositeToRoot<compositor::Over>(world, {}, order, mine, {}, statistics);
+  compositor::Compositor merge{world};
+  const auto frame = merge.toRoot<compositor::Over>({}, order, mine, {}, statistics);
   if (frame) std::printf("opacity %.3f of two ranks\n", static_cast<double>(frame->at(0, 0).a));
   return frame && frame->at(0, 0).a != 0.75f ? 1 : 0;
 }

@@ -1,49 +1,55 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "burin/common/communicator.hpp"
-#include "burin/common/image.hpp"
+#include "burin/compositor/composite_options.hpp"
 #include "burin/compositor/schedule.hpp"
+#include "burin/compositor/tile_assignment.hpp"
 
 namespace burin::compositor {
 
-/// How a frame is composited; the same on every rank.
-struct CompositeOptions {
-  ScheduleKind schedule = ScheduleKind::kBinarySwap;
-  Rank root{0};  ///< where compositeToRoot gathers; need not have drawn anything
+/// What one rank drew, as the others need to know it.
+struct Contribution {
+  std::int64_t activePixels = 0;
+  Coverage coverage;  ///< zeros where coverages are not exchanged
 };
 
-/// What all ranks know about a frame after one small all-gather.
+/// Who does what in one frame; the same on every rank. Pure data: made from what all ranks told
+/// each other.
 struct FramePlan {
-  ImageSize frame;
-  PixelRect bounds;         ///< around all active rectangles
-  std::vector<Rank> ranks;  ///< the participants, front to back: ranks with active pixels
-  ScheduleKind schedule = ScheduleKind::kBinarySwap;
-  int self = -1;  ///< index of this rank among the participants, -1 if it is none
+  TileGrid grid;
+  TileAssignment assignment;
+  std::vector<Rank> contributors;  ///< ranks with active pixels, front to back
+  std::vector<int> participants;  ///< those with pixels where others have some: contributor indices
+  ScheduleOptions schedule;
+  std::vector<Coverage> coverage;  ///< per contributor; empty if coverages were not exchanged
 
-  Region all() const { return {0, bounds.pixels()}; }
-  bool isParticipant() const { return self >= 0; }
-  int participants() const { return static_cast<int>(ranks.size()); }
-  /// Region of finished pixels that a participant holds in the end.
-  Region owned(int participant) const {
-    return ownedRegion(schedule, participants(), all(), participant);
+  int contributorOf(Rank rank) const;        ///< -1: it drew nothing
+  int participantOf(int contributor) const;  ///< -1: it need not composite
+  Rank rankOf(int participant) const {
+    return contributors[static_cast<std::size_t>(
+        participants[static_cast<std::size_t>(participant)])];
   }
+  PixelRect rectAt(std::size_t position) const { return grid.rect(assignment.tiles[position]); }
+  /// What a contributor holds when the schedule is done, besides its exclusive region.
+  Region owned(int contributor) const;
+  /// A participant's steps, without messages that all ranks know to be empty.
+  Plan planOf(int participant) const;
+  /// Whether the message of a step carries nothing: known for schedules that send only what was
+  /// drawn, when coverages were exchanged.
+  bool isSilent(int sender, const Region& region) const;
 };
 
-/// One rank's contribution to the plan.
-struct Announcement {
-  ImageSize frame;
-  PixelRect active;
-  Outcome outcome;  ///< of drawing; of a failed rank nothing else counts
-};
+/// More ranks than this do not tell everybody their coverage; see balanceTiles().
+inline constexpr int kMostRanksWithCoverage = 64;
 
-/// Collective. Throws on all ranks alike, before any of them waits for pixels: CollectiveError if a
-/// rank failed; Error{kRank} if frame sizes, options or orders differ, if `order` names a rank
-/// twice or none of the communicator's, if a rank outside `order` drew something, or if a message
-/// would be too large for MPI. `pixelBytes`: of one pixel on the wire.
-FramePlan planFrame(const Communicator& comm, const CompositeOptions& options,
-                    std::span<const Rank> order, const Announcement& mine, std::size_t pixelBytes);
+/// `order`: front to back. `total`: active pixels per cell over all ranks, used only if
+/// coverages are not exchanged. `byRank`: of each rank of the communicator. Pure.
+FramePlan makeFramePlan(const CompositeOptions& options, LinkClass link, const TileGrid& grid,
+                        std::span<const Rank> order, std::span<const Contribution> byRank,
+                        std::span<const std::int64_t> total, std::size_t pixelBytes);
 
 }  // namespace burin::compositor
