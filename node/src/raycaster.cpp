@@ -229,10 +229,10 @@ void Raycaster::addCounters(RankStatistics& statistics) {
   statistics.leaps += counts[3];
 }
 
-compositor::Subimage<Rgba> Raycaster::draw(const Camera& camera,
-                                           std::span<const Brick* const> bricks,
-                                           RankStatistics& statistics) {
-  compositor::Subimage<Rgba> subimage{camera.image, {}, {}};
+compositor::SubimageView<Rgba> Raycaster::draw(
+    const Camera& camera, std::span<const Brick* const> bricks, RankStatistics& statistics,
+    const std::function<std::span<Rgba>(std::size_t)>& room) {
+  compositor::SubimageView<Rgba> subimage{camera.image, {}, {}};
   struct Job {
     const Brick* brick;
     PixelRect pixels;
@@ -267,9 +267,9 @@ compositor::Subimage<Rgba> Raycaster::draw(const Camera& camera,
     setBrickUniforms(*job.brick);
     drawPixels(job.pixels, statistics);
   }
-  subimage.pixels.resize(area.pixels());
-  gl().ReadPixels(area.x0, area.y0, area.width(), area.height(), GL_RGBA, GL_FLOAT,
-                  subimage.pixels.data());
+  const std::span<Rgba> pixels = room(area.pixels());
+  gl().ReadPixels(area.x0, area.y0, area.width(), area.height(), GL_RGBA, GL_FLOAT, pixels.data());
+  subimage.pixels = pixels;
   checkGl("drawing");
   return subimage;
 }

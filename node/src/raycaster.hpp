@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -36,9 +37,10 @@ class Raycaster {
   std::span<const TransferTable> transferTables() const { return tables_; }
 
   /// Draws `bricks`, given front to back, blending each behind the ones before it. Adds the sample
-  /// counters to `statistics` if they are counted.
-  compositor::Subimage<Rgba> draw(const Camera& camera, std::span<const Brick* const> bricks,
-                                  RankStatistics& statistics);
+  /// counters to `statistics` if they are counted. `room(n)`: where n pixels go.
+  compositor::SubimageView<Rgba> draw(const Camera& camera, std::span<const Brick* const> bricks,
+                                      RankStatistics& statistics,
+                                      const std::function<std::span<Rgba>(std::size_t)>& room);
 
  private:
   /// World gradient magnitude that counts as 1 in the program before a layer's own scale.

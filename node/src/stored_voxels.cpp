@@ -1,12 +1,13 @@
 #include "stored_voxels.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <limits>
 #include <system_error>
 #include <utility>
 
 #include "burin/common/error.hpp"
-#include "burin/common/log.hpp"
 #include "gzip_source.hpp"
 #include "raw_source.hpp"
 #include "scaled_source.hpp"
@@ -72,6 +73,11 @@ void checkGrid(std::string_view name, const VolumeGrid& grid, ExitCode code) {
 std::unique_ptr<BrickSource> openStoredVoxels(VolumeInfo info, const StoredVoxels& stored) {
   const bool scaled = stored.slope != 1 || stored.intercept != 0;
   info.type = stored.type;
+  if (scaled) {
+    info.notice =
+        fmt::format("{}: {} voxels delivered as f32 (value = stored * {} + {})", info.name,
+                    voxelTypeName(stored.type), stored.slope, stored.intercept);
+  }
   std::unique_ptr<BrickSource> source;
   if (stored.encoding == StoredVoxels::Encoding::kGzip) {
     source = std::make_unique<GzipSource>(std::move(info), stored);
@@ -79,8 +85,6 @@ std::unique_ptr<BrickSource> openStoredVoxels(VolumeInfo info, const StoredVoxel
     source = std::make_unique<RawSource>(std::move(info), stored);
   }
   if (!scaled) return source;
-  note("{}: {} voxels delivered as f32 (value = stored * {} + {})", source->info().name,
-       voxelTypeName(stored.type), stored.slope, stored.intercept);
   return std::make_unique<ScaledSource>(std::move(source), stored.slope, stored.intercept);
 }
 

@@ -125,6 +125,16 @@ std::vector<Rank> Worker::visibilityOrder(const Camera& camera) const {
 }
 
 compositor::Subimage<Rgba> Worker::draw(const Camera& camera, RankStatistics& statistics) {
+  compositor::Subimage<Rgba> image{camera.image, {}, {}};
+  image.active = draw(camera, statistics, [&](std::size_t pixels) {
+                   image.pixels.resize(pixels);
+                   return std::span{image.pixels};
+                 }).active;
+  return image;
+}
+
+compositor::SubimageView<Rgba> Worker::draw(const Camera& camera, RankStatistics& statistics,
+                                            const PixelRoom& room) {
   const State& state = *state_;
   statistics.bricks = static_cast<std::int32_t>(state.bricks.size());
   for (const Brick& brick : state.bricks)
@@ -134,7 +144,7 @@ compositor::Subimage<Rgba> Worker::draw(const Camera& camera, RankStatistics& st
   std::vector<const Brick*> bricks;
   for (const BrickId id : state.tree.visibilityOrder(camera))
     if (const Brick* brick = state.find(id)) bricks.push_back(brick);
-  return state_->raycaster->draw(camera, bricks, statistics);
+  return state_->raycaster->draw(camera, bricks, statistics, room);
 }
 
 }  // namespace burin::node

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "burin/compositor/composite.hpp"
+#include "burin/compositor/compositor.hpp"
 #include "support/drawing.hpp"
 #include "support/mpi_test.hpp"
 #include "support/scenes.hpp"
@@ -19,9 +19,14 @@ constexpr double kRms = 2e-6;
 /// Collective. The frame in rank 0's memory; a value on rank 0 alone.
 std::optional<Image<Rgba>> drawTogether(node::Worker& worker, const Camera& camera) {
   RankStatistics statistics;
-  compositor::Subimage<Rgba> mine = worker.draw(camera, statistics);
-  return compositor::compositeToRoot<compositor::Over>(world(), {}, worker.visibilityOrder(camera),
-                                                       std::move(mine), {}, statistics);
+  const compositor::Subimage<Rgba> mine = worker.draw(camera, statistics);
+  compositor::Compositor merge{world()};
+  const auto view =
+      merge.toRoot<compositor::Over>({}, worker.visibilityOrder(camera), mine, {}, statistics);
+  if (!view) return std::nullopt;
+  Image<Rgba> frame{view->size()};
+  std::ranges::copy(view->pixels(), frame.pixels().begin());
+  return frame;
 }
 
 void expectSameAsAlone(const Scene& scene, node::BrickSource& source,

@@ -26,6 +26,7 @@ struct VolumeInfo {
   VolumeGrid grid;
   VoxelType type = VoxelType::kU8;
   bool anatomical = false;  ///< world is LPS
+  std::string notice;       ///< what the user should know of how it is read, "" if nothing
   std::size_t bytes() const { return grid.voxelCount() * bytesPerVoxel(type); }
 };
 

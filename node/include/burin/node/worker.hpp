@@ -1,7 +1,9 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "burin/common/brick_tree.hpp"
@@ -38,8 +40,14 @@ class Worker {
   /// Ranks that own bricks, front to back for this camera. The same on every rank.
   std::vector<Rank> visibilityOrder(const Camera& camera) const;
 
+  /// Where a subimage's pixels go: memory for that many, which outlives the subimage.
+  using PixelRoom = std::function<std::span<Rgba>(std::size_t pixels)>;
+
   /// Local. Draws this rank's bricks into one subimage (empty active rectangle if nothing is
   /// visible) and adds to the statistics. Throws Error{kRank} if GL fails.
+  compositor::SubimageView<Rgba> draw(const Camera& camera, RankStatistics& statistics,
+                                      const PixelRoom& room);
+  /// The same, into memory of its own.
   compositor::Subimage<Rgba> draw(const Camera& camera, RankStatistics& statistics);
 
  private:
