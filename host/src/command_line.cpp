@@ -24,10 +24,17 @@ struct RenderText {
   RawText raw;
   std::string size;
   std::string skip = "on";
+  std::string schedule = "auto";
+  std::string wire = "float";
+  std::string link = "auto";
+  std::string zstd = "auto";
   CLI::Option* orbit = nullptr;
 };
 struct MakeText {
   std::string dims, spacing;
+};
+struct BenchText {
+  CLI::Option* repeats = nullptr;
 };
 
 void addRawOptions(CLI::App& app, RawText& text) {
@@ -90,6 +97,44 @@ void addRunOptions(CLI::App& app, RenderOptions& options, RenderText& text) {
   app.add_flag("--quiet", options.quiet, "Say nothing but warnings and errors");
 }
 
+void addMergeOptions(CLI::App& app, RenderText& text) {
+  app.add_option("--composite", text.schedule, "How ranks merge what they drew (auto)")
+      ->type_name("auto|swap|radix-k|direct|serial")
+      ->check(CLI::IsMember({"auto", "swap", "radix-k", "direct", "serial"}));
+  app.add_option("--wire", text.wire,
+                 "Pixels between ranks; half takes half the bytes and is off by up to 2^-10 for "
+                 "each time a pixel is sent (float)")
+      ->type_name("float|half")
+      ->check(CLI::IsMember({"float", "half"}));
+  app.add_option("--link", text.link,
+                 "What joins the hosts: slow is Ethernet of 1 Gbit/s and less (auto: fast)")
+      ->type_name("auto|fast|slow")
+      ->check(CLI::IsMember({"auto", "fast", "slow"}));
+  app.add_option("--zstd", text.zstd,
+                 "Pack pixels that leave a host, without loss (auto: if the link is slow)")
+      ->type_name("auto|on|off")
+      ->check(CLI::IsMember({"auto", "on", "off"}));
+}
+
+MergeOptions mergeOptions(const RenderText& text) {
+  using compositor::LinkClass;
+  using compositor::Packing;
+  using compositor::ScheduleKind;
+  MergeOptions merge;
+  for (const ScheduleKind kind : {ScheduleKind::kBinarySwap, ScheduleKind::kRadixK,
+                                  ScheduleKind::kDirectSend, ScheduleKind::kSerialGather}) {
+    if (text.schedule == compositor::scheduleName(kind)) {
+      merge.composite.schedule = compositor::ScheduleOptions{.kind = kind};
+    }
+  }
+  if (text.link == "fast") merge.composite.link = LinkClass::kFast;
+  if (text.link == "slow") merge.composite.link = LinkClass::kSlow;
+  if (text.zstd == "on") merge.composite.packing = Packing::kAlways;
+  if (text.zstd == "off") merge.composite.packing = Packing::kNever;
+  merge.isHalfOnWire = text.wire == "half";
+  return merge;
+}
+
 /// "head.nii.gz" → "head.png".
 std::filesystem::path defaultOutput(const std::filesystem::path& input) {
   std::filesystem::path name = input.filename();
@@ -119,6 +164,7 @@ RenderOptions finished(RenderOptions options, const RenderText& text, int ranks)
   if (!text.size.empty()) options.size = parseSize(text.size);
   options.raw = rawLayout(text.raw);
   options.worker.skip = text.skip == "on";
+  options.merge = mergeOptions(text);
   return options;
 }
 
@@ -140,7 +186,68 @@ void describeMakeVolume(CLI::App& app, MakeVolumeOptions& options, MakeText& tex
   app.footer(makeVolumeFooter());
 }
 
-constexpr std::string_view kCommands[] = {"render", "info", "make-volume", "styles"};
+BenchText describeBenchCompositing(CLI::App& app, BenchCompositingOptions& options) {
+  BenchText text;
+  app.add_option("INPUT", options.input, "A scene (.json) or a volume")->type_name("FILE");
+  app.add_option("--volume", options.volume, "Draw this volume, whatever the scene names")
+      ->type_name("FILE");
+  app.add_option("--out", options.folder, "Where the table and the plots go (bench)")
+      ->type_name("DIR");
+  app.add_flag("--quick", options.quick, "512x512 and 3 repeats, no discs");
+  app.add_option("--ranks", options.ranks, "Rank counts (2 to 8, and all)")
+      ->type_name("N,N,…")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  app.add_option("--sizes", options.sides, "Sides of the square frames (512,1024,2048)")
+      ->type_name("N,N,…")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::Range(1, kLargestImageSide));
+  text.repeats =
+      app.add_option("--repeats", options.repeats, "Times of which the median is taken (9)")
+          ->type_name("N")
+          ->check(CLI::Range(1, 10'000));
+  app.add_flag("--dedicated-host", options.dedicatedHost, "Rank 0 draws nothing");
+  app.add_option("--network", options.network,
+                 "What the table calls the network (shm if all ranks share memory)")
+      ->type_name("NAME");
+  app.footer(benchCompositingFooter());
+  return text;
+}
+
+void sortUnique(std::vector<int>& numbers) {
+  std::ranges::sort(numbers);
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
+BenchCompositingOptions finished(BenchCompositingOptions options, const BenchText& text,
+                                 int ranks) {
+  if (ranks < 2)
+    fail(ExitCode::kUsage, "bench compositing needs two ranks or more, this run has one");
+  if (!options.input.empty() && !options.volume.empty() && !isSceneFile(options.input))
+    fail(ExitCode::kUsage, "--volume goes with a scene (a .json file), not with volume {}",
+         options.input);
+  if (options.network.find_first_of(",\"\r\n") != std::string::npos)
+    fail(ExitCode::kUsage, "--network {}: expected a name without commas, quotes or line ends",
+         options.network);
+  for (const int wanted : options.ranks) {
+    if (wanted < 2 || wanted > ranks)
+      fail(ExitCode::kUsage, "--ranks {}: expected 2 to {}, as many as this run has", wanted,
+           ranks);
+  }
+  if (options.ranks.empty()) {
+    for (int some = 2; some <= std::min(ranks, 8); ++some) options.ranks.push_back(some);
+    options.ranks.push_back(ranks);
+  }
+  if (options.sides.empty())
+    options.sides = options.quick ? std::vector{512} : std::vector{512, 1024, 2048};
+  sortUnique(options.ranks);
+  sortUnique(options.sides);
+  if (options.quick && text.repeats->empty()) options.repeats = 3;
+  return options;
+}
+
+constexpr std::string_view kCommands[] = {"render", "info", "make-volume", "styles", "bench"};
 
 /// CLI11 would only say that a subcommand is missing.
 void checkCommandName(std::span<const char* const> arguments) {
@@ -216,6 +323,7 @@ Command parseCommandLine(std::span<const char* const> arguments, int ranks) {
   addPictureOptions(renderApp, render, renderText);
   addRawOptions(renderApp, renderText.raw);
   addRunOptions(renderApp, render, renderText);
+  addMergeOptions(renderApp, renderText);
   renderApp.footer(renderFooter());
 
   InfoOptions info;
@@ -231,6 +339,13 @@ Command parseCommandLine(std::span<const char* const> arguments, int ranks) {
 
   CLI::App& stylesApp = *app.add_subcommand("styles", "List the styles and their parameters");
 
+  BenchCompositingOptions compositing;
+  CLI::App& benchApp = *app.add_subcommand("bench", "Measure burin");
+  benchApp.require_subcommand(1);
+  CLI::App& compositingApp =
+      *benchApp.add_subcommand("compositing", "Merging subimages, against IceT");
+  const BenchText benchText = describeBenchCompositing(compositingApp, compositing);
+
   try {
     app.parse(reversed(arguments));
   } catch (const CLI::Success& wanted) {  // --help or --version
@@ -242,6 +357,7 @@ Command parseCommandLine(std::span<const char* const> arguments, int ranks) {
   }
   if (renderApp.parsed()) return finished(render, renderText, ranks);
   if (makeApp.parsed()) return finished(make, makeText);
+  if (compositingApp.parsed()) return finished(compositing, benchText, ranks);
   if (stylesApp.parsed()) return StylesOptions{};
   info.raw = rawLayout(infoText);
   return info;

@@ -75,8 +75,8 @@ bool Display::isExr() const {
   return options_.output.extension() == ".exr";
 }
 
-void Display::finish(Image<Rgba> frame) {
-  frame_ = std::move(frame);
+void Display::finish(ImageView<const Rgba> frame) {
+  frame_ = frame;
   if (!isExr()) picture_ = toDisplay(frame_, scene_.background);
 }
 

@@ -60,7 +60,8 @@ void writePng(const fs::path& target, const DisplayPicture& picture,
   writePicture(target, "png", spec, picture.bytes.data());
 }
 
-void writeExr(const fs::path& target, const Image<Rgba>& frame, const PictureMetadata& metadata) {
+void writeExr(const fs::path& target, ImageView<const Rgba> frame,
+              const PictureMetadata& metadata) {
   static_assert(sizeof(Rgba) == 4 * sizeof(float));
   OIIO::ImageSpec spec{frame.size().width, frame.size().height, 4, OIIO::TypeDesc::FLOAT};
   describe(spec, metadata);

@@ -51,7 +51,7 @@ class ReferenceFrames : public FrameMaker {
                  [&] { renderer_.emplace(prepared.scene, *prepared.source, gradientScale); });
   }
 
-  Image<Rgba> make(const Camera& camera, RankStatistics& statistics) override {
+  ImageView<const Rgba> make(const Camera& camera, RankStatistics& statistics) override {
     const RowShare share{camera.image.height, comm_.size(), dedicatedHost_};
     std::vector<Rgba> mine;
     Outcome drawing;
@@ -61,7 +61,8 @@ class ReferenceFrames : public FrameMaker {
     }
     const PhaseTimer timer{statistics.phases[Phase::kGather]};
     agree(comm_, "drawing", std::move(drawing));
-    return gather(camera.image, share, mine);
+    frame_ = gather(camera.image, share, mine);
+    return frame_;
   }
 
  private:
@@ -123,6 +124,7 @@ class ReferenceFrames : public FrameMaker {
   int threads_;
   ReportProgress report_;
   std::optional<node::ReferenceRenderer> renderer_;
+  Image<Rgba> frame_;
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "burin/common/error.hpp"
+#include "burin/common/log.hpp"
 #include "burin/host/default_scene.hpp"
 #include "burin/host/histogram.hpp"
 #include "burin/host/shared_error.hpp"
@@ -75,6 +76,7 @@ std::unique_ptr<node::BrickSource> openTogether(const Communicator& comm,
                                                 const VolumeChoice& choice) {
   std::unique_ptr<node::BrickSource> source;
   together(comm, "opening the volume", [&] { source = node::openVolume(choice); });
+  if (comm.isRoot() && !source->info().notice.empty()) note("{}", source->info().notice);
   return source;
 }
 

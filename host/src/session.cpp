@@ -54,7 +54,8 @@ void Session::checkCameras() const {
 }
 
 std::unique_ptr<FrameMaker> Session::makeFrameMaker() {
-  if (!options_.reference) return makeRaycastFrames(comm_, prepared_, options_.worker);
+  if (!options_.reference)
+    return makeRaycastFrames(comm_, prepared_, options_.worker, options_.merge);
   return makeReferenceFrames(comm_, prepared_, options_.worker, [this](double share) {
     progress_.show(fmt::format("reference {:.0f} %", 100 * share));
   });
@@ -106,10 +107,11 @@ Outcome Session::draw(int index, FrameStatistics& frame, RankStatistics& mine) {
       const PhaseTimer timer{mine.phases[Phase::kUpdate]};
       camera = resolveCamera(prepared_.scene, prepared_.facts, orbitDeg(index));
     }
-    Image<Rgba> image = frames_->make(camera, mine);
+    const ImageView<const Rgba> image = frames_->make(camera, mine);
+    frame.composite = frames_->lastComposite();
     if (display_) {
       const PhaseTimer timer{mine.phases[Phase::kFinish]};
-      finishing = attempt([&] { display_->finish(std::move(image)); });
+      finishing = attempt([&] { display_->finish(image); });
     }
   }
   mine.peakRssBytes = peakResidentBytes();

@@ -9,7 +9,7 @@ namespace burin::host {
 
 namespace {
 
-void encodeOver(const Image<Rgba>& frame, const Colour& background, const SrgbEncoder& encoder,
+void encodeOver(ImageView<const Rgba> frame, const Colour& background, const SrgbEncoder& encoder,
                 std::uint8_t* out) {
   const glm::dvec3 linear = background.linear();
   const Rgba back{static_cast<float>(linear.r), static_cast<float>(linear.g),
@@ -22,7 +22,7 @@ void encodeOver(const Image<Rgba>& frame, const Colour& background, const SrgbEn
   }
 }
 
-void encodeStraight(const Image<Rgba>& frame, const SrgbEncoder& encoder, std::uint8_t* out) {
+void encodeStraight(ImageView<const Rgba> frame, const SrgbEncoder& encoder, std::uint8_t* out) {
   for (const Rgba& pixel : frame.pixels()) {
     const float unpremultiply = pixel.a > 0 ? 1.0f / pixel.a : 0.0f;
     *out++ = encoder.encode(pixel.r * unpremultiply);
@@ -34,7 +34,7 @@ void encodeStraight(const Image<Rgba>& frame, const SrgbEncoder& encoder, std::u
 
 }  // namespace
 
-DisplayPicture toDisplay(const Image<Rgba>& frame, const std::optional<Colour>& background) {
+DisplayPicture toDisplay(ImageView<const Rgba> frame, const std::optional<Colour>& background) {
   static const SrgbEncoder encoder;
   DisplayPicture picture;
   picture.size = frame.size();

@@ -102,6 +102,22 @@ TEST(CommandLine, RenderTakesEveryOption) {
   EXPECT_TRUE(options.quiet);
 }
 
+TEST(CommandLine, MergingIsChosen) {
+  using compositor::LinkClass;
+  using compositor::Packing;
+  const auto defaults = parseRender({"s.json"}).merge;
+  EXPECT_FALSE(defaults.composite.schedule || defaults.composite.link || defaults.isHalfOnWire);
+  EXPECT_EQ(defaults.composite.packing, Packing::kAuto);
+  const auto merge = parseRender({"s.json", "--composite", "radix-k", "--wire", "half", "--link",
+                                  "slow", "--zstd", "off"})
+                         .merge;
+  ASSERT_TRUE(merge.composite.schedule.has_value());
+  EXPECT_EQ(merge.composite.schedule->kind, compositor::ScheduleKind::kRadixK);
+  EXPECT_EQ(merge.composite.link, LinkClass::kSlow);
+  EXPECT_EQ(merge.composite.packing, Packing::kNever);
+  EXPECT_TRUE(merge.isHalfOnWire);
+}
+
 TEST(CommandLine, SetDoesNotSwallowTheInput) {
   const RenderOptions options = parseRender({"--set", "a=1", "s.json", "--set", "b=2"});
   EXPECT_EQ(options.input, "s.json");
@@ -202,6 +218,49 @@ TEST(CommandLine, ScenesAreKnownByTheirName) {
   EXPECT_TRUE(isSceneFile("b.jsonc"));
   EXPECT_FALSE(isSceneFile("b.nrrd"));
   EXPECT_FALSE(isSceneFile("json"));
+}
+
+BenchCompositingOptions parseBench(std::vector<const char*> arguments, int ranks = 8) {
+  arguments.insert(arguments.begin(), {"bench", "compositing"});
+  return std::get<BenchCompositingOptions>(parse(arguments, ranks));
+}
+
+TEST(CommandLine, BenchCompositingHasTheDocumentedDefaults) {
+  const BenchCompositingOptions options = parseBench({});
+  EXPECT_THAT(options.ranks, ElementsAre(2, 3, 4, 5, 6, 7, 8));
+  EXPECT_THAT(options.sides, ElementsAre(512, 1024, 2048));
+  EXPECT_EQ(options.repeats, 9);
+  EXPECT_EQ(options.folder, "bench");
+  EXPECT_EQ(options.network, "");
+  EXPECT_THAT(parseBench({}, 3).ranks, ElementsAre(2, 3));
+  EXPECT_THAT(parseBench({}, 24).ranks, ElementsAre(2, 3, 4, 5, 6, 7, 8, 24));
+}
+
+TEST(CommandLine, BenchCompositingTakesEveryOption) {
+  const BenchCompositingOptions quick = parseBench({"scene.json", "--quick", "--out", "there"});
+  EXPECT_EQ(quick.input, "scene.json");
+  EXPECT_EQ(quick.folder, "there");
+  EXPECT_EQ(quick.repeats, 3);
+  EXPECT_THAT(quick.sides, ElementsAre(512));
+  const BenchCompositingOptions chosen =
+      parseBench({"--volume", "v.nrrd", "--ranks", "8,2,8", "--sizes", "64,32", "--quick",
+                  "--repeats", "5", "--network", "100mbit"});
+  EXPECT_EQ(chosen.volume, "v.nrrd");
+  EXPECT_THAT(chosen.ranks, ElementsAre(2, 8));
+  EXPECT_THAT(chosen.sides, ElementsAre(32, 64));
+  EXPECT_EQ(chosen.repeats, 5);
+  EXPECT_EQ(chosen.network, "100mbit");
+}
+
+TEST(CommandLine, BenchNamesWhatIsWrong) {
+  EXPECT_THAT(usageError({"bench", "compositing"}, 1), HasSubstr("two ranks or more"));
+  EXPECT_THAT(usageError({"bench", "compositing", "--ranks", "9"}, 8),
+              HasSubstr("--ranks 9: expected 2 to 8"));
+  EXPECT_THAT(usageError({"bench", "compositing", "--ranks", "1"}, 8),
+              HasSubstr("--ranks 1: expected 2 to 8"));
+  EXPECT_THAT(usageError({"bench", "compositing", "--sizes", "0"}, 8), HasSubstr("--sizes"));
+  EXPECT_THAT(usageError({"bench", "compositing", "--network", "a,b"}, 8), HasSubstr("--network"));
+  EXPECT_THAT(usageError({"bench"}, 8), HasSubstr("subcommand"));
 }
 
 }  // namespace

@@ -152,12 +152,13 @@ TEST_F(Render, StatisticsHaveTheDocumentedFields) {
     EXPECT_LE(sum, frame.at("frame_ms").get<double>());
     EXPECT_GT(frame.at("phases_ms").at("write").get<double>(), 0);
     ASSERT_EQ(frame.at("ranks").size(), 3u);
-    std::int64_t bricks = 0, visited = 0, sent = 0, received = 0;
+    std::int64_t bricks = 0, visited = 0, sent = 0, received = 0, finished = 0;
     for (const auto& rank : frame.at("ranks")) {
       bricks += rank.at("bricks").get<int>();
       visited += rank.at("samples_visited").get<std::int64_t>();
       sent += rank.at("bytes_sent").get<std::int64_t>();
       received += rank.at("bytes_received").get<std::int64_t>();
+      finished += rank.at("bytes_to_root").get<std::int64_t>();
       EXPECT_GT(rank.at("peak_rss_bytes").get<std::int64_t>(), 0);
       EXPECT_GT(rank.at("resident_voxel_bytes").get<std::int64_t>(), 0);
       EXPECT_GT(rank.at("active_pixels").get<std::int64_t>(), 0);
@@ -168,8 +169,43 @@ TEST_F(Render, StatisticsHaveTheDocumentedFields) {
     EXPECT_EQ(bricks, 3);
     EXPECT_GT(visited, 0);
     EXPECT_GT(sent, 0);
-    EXPECT_EQ(sent, received);
+    // On one host finished pixels are put into rank 0's frame, which does not count them.
+    EXPECT_EQ(sent - finished, received);
+    const auto& composite = frame.at("composite");
+    EXPECT_EQ(composite.at("schedule"), "direct");
+    EXPECT_EQ(composite.at("wire"), "float");
+    EXPECT_EQ(composite.at("participants"), 3);
+    EXPECT_EQ(composite.at("hosts"), 1);
+    EXPECT_EQ(composite.at("packed"), false);
   }
+}
+
+// However pixels are exchanged, the picture is the same up to the rounding of over: of 3 ranks'
+// four bricks' worth of pixels 1e-6 is a generous bound (see compositor/test_images.hpp).
+TEST_F(Render, EveryWayOfMergingDrawsTheSamePicture) {
+  draw(path("a.exr"), {}, 3);
+  const ReadPicture expected = readPicture(path("a.exr"));
+  const auto largestDifference = [&](const char* name) {
+    const ReadPicture picture = readPicture(path(name));
+    double largest = 0;
+    for (std::size_t i = 0; i < expected.values.size(); ++i) {
+      largest = std::max(largest, std::abs(double{picture.values.at(i)} - expected.values[i]));
+    }
+    return largest;
+  };
+  for (const std::string schedule : {"swap", "radix-k", "direct", "serial"}) {
+    draw(path("b.exr"), {"--composite", schedule, "--stats", path("t.json")}, 3);
+    const auto stats = nlohmann::json::parse(std::ifstream{path("t.json")});
+    EXPECT_EQ(stats.at("frames").at(0).at("composite").at("schedule"), schedule);
+    EXPECT_LE(largestDifference("b.exr"), 1e-6) << schedule;
+  }
+  draw(path("c.exr"), {"--link", "slow", "--zstd", "on"}, 3);
+  EXPECT_LE(largestDifference("c.exr"), 1e-6);
+  // Half: 2^-11 of the opacity and 2^-10 of the colour each time a pixel is sent, at most twice
+  // here.
+  draw(path("h.exr"), {"--wire", "half"}, 3);
+  EXPECT_LE(largestDifference("h.exr"), 2 * 0x1p-10);
+  EXPECT_GT(largestDifference("h.exr"), 0);
 }
 
 TEST_F(Render, SampleCountersAreAbsentWhenNotCounted) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 
@@ -94,6 +95,37 @@ TEST(Info, DrawsAHistogram) {
   // 64 values in 64 columns, the first and the last of them equally tall.
   EXPECT_THAT(info, HasSubstr("\n  █" + std::string(62, ' ') + "█\n"));
   EXPECT_THAT(info, ContainsRegex("\n  0 +63\n"));
+}
+
+/// A NIfTI-1 file of 4 x 4 x 4 u8 voxels whose values are twice what is stored, plus one.
+void writeScaledNifti(const std::string& path) {
+  std::string file(352 + 64, '\0');
+  const auto put = [&](std::size_t at, auto value) {
+    std::memcpy(file.data() + at, &value, sizeof value);
+  };
+  put(0, std::int32_t{348});
+  put(40, std::int16_t{3});
+  for (std::size_t axis = 1; axis < 8; ++axis) {
+    put(40 + 2 * axis, static_cast<std::int16_t>(axis <= 3 ? 4 : 1));
+    put(76 + 4 * axis, 1.0f);
+  }
+  put(70, std::int16_t{2});  // unsigned char
+  put(72, std::int16_t{8});
+  put(76, 1.0f);
+  put(108, 352.0f);
+  put(112, 2.0f);
+  put(116, 1.0f);
+  std::memcpy(file.data() + 344, "n+1", 4);
+  std::ofstream{path, std::ios::binary} << file;
+}
+
+TEST(Info, WhatIsDoneToAVolumeIsSaidOnceWhateverTheRanks) {
+  const TemporaryFolder folder;
+  writeScaledNifti(folder / "scaled.nii");
+  const auto result = runBurin({"info", folder / "scaled.nii"}, 3);
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_THAT(onlyLine(result.err),
+              HasSubstr("u8 voxels delivered as f32 (value = stored * 2 + 1)"));
 }
 
 }  // namespace

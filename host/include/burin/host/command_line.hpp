@@ -10,6 +10,7 @@
 
 #include "burin/common/camera.hpp"
 #include "burin/common/scene.hpp"
+#include "burin/compositor/composite_options.hpp"
 #include "burin/node/worker.hpp"
 
 namespace burin::host {
@@ -25,6 +26,12 @@ struct RawLayout {
   void applyTo(VolumeChoice& choice) const;
 };
 
+/// --composite, --wire, --link, --zstd
+struct MergeOptions {
+  compositor::CompositeOptions composite;
+  bool isHalfOnWire = false;
+};
+
 /// burin render
 struct RenderOptions {
   std::string input;   ///< SCENE or VOLUME; empty if only --volume was given
@@ -34,6 +41,7 @@ struct RenderOptions {
   std::vector<std::string> settings;  ///< --set, in order
   RawLayout raw;
   node::WorkerOptions worker;
+  MergeOptions merge;
   int frames = 0;  ///< 0: one picture named as given; else numbered ones
   double orbitDeg = 360;
   bool reference = false;
@@ -57,6 +65,19 @@ struct MakeVolumeOptions {
   std::filesystem::path output;
 };
 
+/// burin bench compositing
+struct BenchCompositingOptions {
+  std::string input;   ///< SCENE or VOLUME whose footprints are composited; empty: built-in ones
+  std::string volume;  ///< --volume, as of RenderOptions
+  std::filesystem::path folder = "bench";  ///< --out
+  bool quick = false;
+  std::vector<int> ranks;  ///< rank counts to measure, ascending, each <= those of the run
+  std::vector<int> sides;  ///< of the square frames, pixels, ascending
+  int repeats = 9;
+  bool dedicatedHost = false;  ///< rank 0 draws nothing
+  std::string network;         ///< its name in the table; empty: found out
+};
+
 /// burin styles
 struct StylesOptions {};
 
@@ -65,7 +86,8 @@ struct Answer {
   std::string text;
 };
 
-using Command = std::variant<RenderOptions, InfoOptions, MakeVolumeOptions, StylesOptions, Answer>;
+using Command = std::variant<RenderOptions, InfoOptions, MakeVolumeOptions, StylesOptions,
+                             BenchCompositingOptions, Answer>;
 
 /// Reads the arguments (without the program's name). Depends on nothing else, so that all ranks
 /// come to the same result. `ranks`: how many take part. Throws Error{kUsage}, one line.

@@ -28,8 +28,9 @@ class Display {
   /// `scene`: resolved.
   Display(const Scene& scene, const RenderOptions& options);
 
-  /// The finished picture in memory: background and 8 bits for PNG, the frame itself for EXR.
-  void finish(Image<Rgba> frame);
+  /// The finished picture in memory: background and 8 bits for PNG, the frame itself for EXR, which
+  /// must stay until it is written.
+  void finish(ImageView<const Rgba> frame);
   /// Writes what `finish` made. Throws as writePng does.
   void write(int index, double orbitDeg) const;
 
@@ -37,7 +38,7 @@ class Display {
   bool isExr() const;
   const Scene& scene_;
   const RenderOptions& options_;
-  Image<Rgba> frame_;
+  ImageView<const Rgba> frame_;
   DisplayPicture picture_;
 };
 

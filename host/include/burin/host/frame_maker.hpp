@@ -20,14 +20,17 @@ class FrameMaker {
  public:
   virtual ~FrameMaker() = default;
 
-  /// Collective. The whole frame on rank 0, an empty image elsewhere. Adds to the statistics' draw,
-  /// composite and gather phases. Throws CollectiveError if a rank failed.
-  virtual Image<Rgba> make(const Camera& camera, RankStatistics& statistics) = 0;
+  /// Collective. The whole frame on rank 0, valid until the next call, no pixels elsewhere. Adds to
+  /// the statistics' draw, composite and gather phases. Throws CollectiveError if a rank failed.
+  virtual ImageView<const Rgba> make(const Camera& camera, RankStatistics& statistics) = 0;
+  /// How the last frame was merged.
+  virtual CompositeStatistics lastComposite() const { return {}; }
 };
 
-/// Collective. Bricks drawn by each rank's node::Worker, merged by binary swap.
+/// Collective. Bricks drawn by each rank's node::Worker, merged by a Compositor.
 std::unique_ptr<FrameMaker> makeRaycastFrames(const Communicator& comm, PreparedScene& prepared,
-                                              const node::WorkerOptions& options);
+                                              const node::WorkerOptions& options,
+                                              const MergeOptions& merge);
 
 /// Collective. Rows drawn by each rank's node::ReferenceRenderer. Rank 0 draws none if it is a
 /// dedicated host.

@@ -20,7 +20,7 @@ struct DisplayPicture {
 
 /// The float frame over an opaque background (3 channels), or, without one, with straight alpha
 /// (4 channels). Each channel is rounded to the nearest of 256 codes.
-DisplayPicture toDisplay(const Image<Rgba>& frame, const std::optional<Colour>& background);
+DisplayPicture toDisplay(ImageView<const Rgba> frame, const std::optional<Colour>& background);
 
 /// What a picture file says about itself beside its pixels.
 struct PictureMetadata {
@@ -35,7 +35,7 @@ struct PictureMetadata {
 /// Throw Error{kUsage} if the folder cannot be written to, Error{kRank} if writing fails.
 void writePng(const std::filesystem::path& target, const DisplayPicture& picture,
               const PictureMetadata& metadata);
-void writeExr(const std::filesystem::path& target, const Image<Rgba>& frame,
+void writeExr(const std::filesystem::path& target, ImageView<const Rgba> frame,
               const PictureMetadata& metadata);
 
 }  // namespace burin::host
