@@ -40,4 +40,13 @@ std::string makeVolumeFooter() {
          fmt::format("The format goes by the file's extension: {}\n", node::writableExtensions());
 }
 
+std::string benchCompositingFooter() {
+  return R"(Composites the same subimages with burin and, where it is found, with IceT, in turns: a scene's
+footprints (built-in scenes unless INPUT is given), full frames, and discs of growing size. Writes
+compositing.csv and plots (gnuplot) to the folder, and prints the ratios to IceT's best.
+
+Start it with as many ranks as are to be measured: mpirun --bind-to none -n 8 burin bench compositing
+`scripts/get-icet` fetches IceT; another one is found by BURIN_ICET_FOLDER=FOLDER.)";
+}
+
 }  // namespace burin::host

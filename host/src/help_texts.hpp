@@ -8,5 +8,6 @@ namespace burin::host {
 std::string programFooter();
 std::string renderFooter();
 std::string makeVolumeFooter();
+std::string benchCompositingFooter();
 
 }  // namespace burin::host

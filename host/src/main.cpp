@@ -27,6 +27,9 @@ int runCommand(const Communicator& comm, const MakeVolumeOptions& options) {
 int runCommand(const Communicator& comm, const StylesOptions&) {
   return runStyles(comm);
 }
+int runCommand(const Communicator& comm, const BenchCompositingOptions& options) {
+  return runBenchCompositing(comm, options);
+}
 int runCommand(const Communicator& comm, const Answer& answer) {
   if (comm.isRoot()) std::fputs(answer.text.c_str(), stdout);
   return 0;

@@ -11,5 +11,6 @@ int runRender(const Communicator& comm, const RenderOptions& options);
 int runInfo(const Communicator& comm, const InfoOptions& options);
 int runMakeVolume(const Communicator& comm, const MakeVolumeOptions& options);
 int runStyles(const Communicator& comm);
+int runBenchCompositing(const Communicator& comm, const BenchCompositingOptions& options);
 
 }  // namespace burin::host
