@@ -2,7 +2,8 @@
 # CTest entry per program (start-up dominates; run one case with --gtest_filter).
 #
 # Label "sanitize" puts a test into the subset that runs under address and undefined-behaviour
-# sanitizers; target sanitize_tests builds exactly those programs.
+# sanitizers, "threads" into the one for the thread sanitizer; targets sanitize_tests and
+# threads_tests build exactly those programs.
 function(burin_add_test name)
   cmake_parse_arguments(arg "" "TIMEOUT" "SOURCES;LIBRARIES;LABELS" ${ARGN})
   burin_test_program(${name} SOURCES ${arg_SOURCES} LABELS ${arg_LABELS}
@@ -32,9 +33,11 @@ function(burin_test_program name)
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   target_link_libraries(${name} PRIVATE
     ${arg_LIBRARIES} burin::test_support GTest::gmock burin_warnings)
-  if("sanitize" IN_LIST arg_LABELS)
-    add_dependencies(sanitize_tests ${name})
-  endif()
+  foreach(subset sanitize threads)
+    if(subset IN_LIST arg_LABELS)
+      add_dependencies(${subset}_tests ${name})
+    endif()
+  endforeach()
 endfunction()
 
 # burin_set_test(NAME [TIMEOUT seconds] [PROCESSORS n] [LABELS …]): what every CTest entry needs:
@@ -46,6 +49,7 @@ function(burin_set_test name)
 endfunction()
 
 add_custom_target(sanitize_tests)
+add_custom_target(threads_tests)
 
 # More ranks than cores, none of them bound to one; and for containers: root allowed, no reading of
 # another process's memory, no complaints where /sys is missing.
