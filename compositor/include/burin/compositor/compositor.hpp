@@ -68,9 +68,10 @@ class Compositor {
   /// If drawing failed on any rank, CollectiveError is thrown on all of them before pixels travel;
   /// Error{kRank} on all of them if frame sizes, options or orders differ, if `order` names a rank
   /// twice or none of the communicator's, if a rank outside it drew something, if a message would
-  /// be too large for MPI, and CollectiveError if a message was damaged or memory ran out on the
-  /// way. Ranks without active pixels take no part. Adds to the statistics' active pixels, bytes,
-  /// messages, composite and gather phases.
+  /// be too large for MPI, and CollectiveError if a message was damaged or could not be made.
+  /// Memory that runs out while a message is received is one rank's alone: std::bad_alloc, and the
+  /// others wait in vain, so the program must end. Ranks without active pixels take no part. Adds
+  /// to the statistics' active pixels, bytes, messages, composite and gather phases.
   template <PixelAlgebra A>
   std::optional<ImageView<const typename A::Pixel>> toRoot(
       const CompositeOptions& options, std::span<const Rank> order,

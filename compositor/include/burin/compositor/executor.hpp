@@ -7,7 +7,8 @@
 
 namespace burin::compositor {
 
-/// How messages get from rank to rank: MpiFlow between processes, InProcessFlow between threads.
+/// How messages get from rank to rank: MpiFlow between processes, HostFlow between those of one
+/// host, InProcessFlow between threads.
 /// - send() does not wait; the message must stay until the frame ends for all ranks.
 /// - receive() waits for one message of each sender and sets its `bytes`, which lie in what
 ///   `room(bytes)` gave and stay as long; two messages of one sender come in the order sent.
@@ -108,8 +109,8 @@ void gatherAtRoot(F& flow, Participant<A>& participant, ImageView<typename A::Pi
 }
 
 /// A rank's whole part in a frame after the plan is known. `frame`: the root's on the root, without
-/// pixels elsewhere; its pixels are all written. `enterGather()` is called when compositing is
-/// done.
+/// pixels elsewhere; all pixels of the plan's tiles are written. `enterGather()` is called when
+/// compositing is done.
 template <PixelAlgebra A, MessageFlow F, typename EnterGather>
 void runFrame(F& flow, const CompositeOptions& options, Rank rank, bool isPacked,
               const SharedSpaces& spaces, Participant<A>& participant,

@@ -40,9 +40,9 @@ struct Way {
   bool isPacked = false;
 };
 
-/// One contributor's pixels while a frame is composited, whoever carries the messages. Nothing here
-/// throws, since others wait for the messages: after a failure it goes on with no pixels, and the
-/// outcome tells.
+/// One contributor's pixels while a frame is composited, whoever carries the messages. Others wait
+/// for the messages, so failures are noted and it goes on with no pixels; the outcome tells. Only
+/// room() throws.
 template <PixelAlgebra A>
 class Participant {
  public:
