@@ -15,6 +15,35 @@ if(BURIN_SANITIZE)
   add_link_options(-fsanitize=${BURIN_SANITIZE})
 endif()
 
+# Headers that nearly every file includes, compiled once for the libraries and once for the tests:
+# half of what a small file takes. Files still include what they use; preset dev builds without.
+option(BURIN_PRECOMPILE_HEADERS "Compile common headers once" ON)
+set(BURIN_COMMON_HEADERS
+  <algorithm> <array> <cmath> <cstdint> <filesystem> <functional> <memory> <optional> <span> <string>
+  <string_view> <variant> <vector> <fmt/format.h> <glm/glm.hpp>)
+if(BURIN_PRECOMPILE_HEADERS AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-fpch-preprocess>)  # ccache needs it
+endif()
+
+# burin_headers(OWNER HEADERS …): OWNER compiles those headers for others.
+function(burin_headers owner)
+  if(BURIN_PRECOMPILE_HEADERS)
+    target_precompile_headers(${owner} PRIVATE ${ARGN})
+  endif()
+endfunction()
+
+# burin_use_headers(TARGET OWNER): TARGET uses them; it must be compiled with the same options.
+function(burin_use_headers target owner)
+  if(BURIN_PRECOMPILE_HEADERS)
+    target_precompile_headers(${target} REUSE_FROM ${owner})
+  endif()
+endfunction()
+
+add_library(burin_headers STATIC ${CMAKE_CURRENT_LIST_DIR}/headers.cpp)
+target_compile_features(burin_headers PUBLIC cxx_std_20)
+target_link_libraries(burin_headers PRIVATE fmt::fmt glm::glm burin_warnings)
+burin_headers(burin_headers ${BURIN_COMMON_HEADERS})
+
 function(burin_library name)
   cmake_parse_arguments(arg "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   add_library(burin_${name} STATIC ${arg_SOURCES})
@@ -27,4 +56,5 @@ function(burin_library name)
     PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)
   target_link_libraries(burin_${name} PUBLIC ${arg_PUBLIC}
     PRIVATE ${arg_PRIVATE} $<BUILD_INTERFACE:burin_warnings>)
+  burin_use_headers(burin_${name} burin_headers)
 endfunction()

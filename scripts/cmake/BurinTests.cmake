@@ -33,6 +33,8 @@ function(burin_test_program name)
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   target_link_libraries(${name} PRIVATE
     ${arg_LIBRARIES} burin::test_support GTest::gmock burin_warnings)
+  burin_use_headers(${name} burin_test_headers)
+  burin_test_options(${name})
   foreach(subset sanitize threads)
     if(subset IN_LIST arg_LABELS)
       add_dependencies(${subset}_tests ${name})
@@ -47,6 +49,18 @@ function(burin_set_test name)
   set_tests_properties(${name} PROPERTIES TIMEOUT ${arg_TIMEOUT} PROCESSORS ${arg_PROCESSORS}
     LABELS "${arg_LABELS}" ENVIRONMENT "${BURIN_TEST_ENVIRONMENT}")
 endfunction()
+
+# Tests are compiled in less time rather than run in less: what they test has its full optimisation.
+function(burin_test_options target)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+endfunction()
+
+# The tests' precompiled headers. A program, since those are compiled with other options than
+# libraries.
+add_executable(burin_test_headers ${CMAKE_CURRENT_LIST_DIR}/test_headers.cpp)
+target_link_libraries(burin_test_headers PRIVATE fmt::fmt glm::glm GTest::gmock burin_warnings)
+burin_test_options(burin_test_headers)
+burin_headers(burin_test_headers ${BURIN_COMMON_HEADERS} <gmock/gmock.h> <gtest/gtest.h>)
 
 add_custom_target(sanitize_tests)
 add_custom_target(threads_tests)

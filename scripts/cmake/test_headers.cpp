@@ -1,0 +1,2 @@
+// Owner of the precompiled headers of the tests (BurinTests.cmake).
+int main() {}
