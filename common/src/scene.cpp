@@ -1,6 +1,7 @@
 #include "burin/common/scene.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "burin/common/error.hpp"
 
@@ -57,6 +58,23 @@ bool needsGradient(const Layer& layer) {
   });
 }
 
+/// A segment belongs to the brick of its middle; its ends are half a segment away from there. Along
+/// no axis that is more voxels than along the ray, where a voxel is at least the smallest spacing.
+int segmentGhostLayers(const Scene& scene) {
+  if (!scene.quality.preintegrated) return 0;
+  const CameraChoice& camera = scene.camera;
+  double slope = 0;  // of the ray through a corner of the picture
+  if (camera.projection == Projection::kPerspective) {
+    const double side = std::min(scene.imageSize.width, scene.imageSize.height);
+    slope = std::hypot(scene.imageSize.width / side, scene.imageSize.height / side) / camera.zoom;
+    if (!camera.eye) slope = std::min(slope, 1.0);  // rays beyond the bounding sphere meet nothing
+    slope *= std::tan(glm::radians(camera.verticalFovDeg) / 2);
+  }
+  constexpr double kMost = 4096;  // more than any texture holds; loading stops at the volume
+  const double step = scene.quality.maxError ? kLargestChosenStep : scene.quality.stepVoxels;
+  return static_cast<int>(std::min(std::ceil(0.5 * step * std::hypot(1.0, slope)), kMost));
+}
+
 }  // namespace
 
 const StyleSettings* Layer::style(std::string_view styleName) const {
@@ -106,7 +124,7 @@ glm::dvec3 lightDirectionWorld(const Light& light, const Camera& camera) {
 }
 
 int ghostLayersNeeded(const Scene& scene) {
-  int needed = 0;
+  int needed = segmentGhostLayers(scene);
   for (const Layer& layer : scene.layers) {
     const bool gradient = needsGradient(layer);
     for (const StyleSettings& settings : layer.styles) {

@@ -103,6 +103,16 @@ Codec<ParameterValue> asParameter(Codec<V> codec) {
 
 }  // namespace
 
+Codec<bool> boolean() {
+  return {[](const At& at) {
+            if (at.node.kind != Node::Kind::kBoolean)
+              at.fail("expected true or false, found {}", json::shown(at.node));
+            return at.node.boolean;
+          },
+          [](const bool& value) { return Document(value); },
+          {{"type", "boolean"}}};
+}
+
 Codec<double> number(Range range) {
   return {[range](const At& at) { return readNumber(at, range); },
           [](const double& value) { return json::numberDocument(value); }, numberSchema(range)};

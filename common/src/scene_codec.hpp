@@ -42,6 +42,7 @@ inline constexpr Range kAnyNumber{};
 inline constexpr Range kPositive{.minimum = 0, .minimumExcluded = true};
 
 Codec<double> number(Range range);
+Codec<bool> boolean();
 Codec<std::string> text();
 Codec<std::string> word(std::vector<std::string_view> choices);
 Codec<Colour> colour();

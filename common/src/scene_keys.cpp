@@ -95,13 +95,36 @@ Codec<ImageChoice> imageCodec() {
       {}, ImageChoice{defaults.imageSize, defaults.background});
 }
 
+/// A number of Quality that max_error chooses, and that is not written beside it.
+Field<Quality> chosenByError(std::string_view name, std::string_view help, double Quality::*member,
+                             Range range) {
+  return field<Quality, double>(
+      name, help, number(range),
+      [member](const Quality& q) { return q.maxError ? std::nullopt : std::optional{q.*member}; },
+      [member](Quality& q, double value) { q.*member = value; });
+}
+
 Codec<Quality> qualityCodec() {
   using Q = Quality;
   return object<Q>(
-      {field("step_voxels", "Distance of samples, in smallest voxel spacings", &Q::stepVoxels,
-             number({.minimum = kSmallestStepVoxels, .maximum = 100})),
-       field("termination", "Rays end when their transmittance falls below this; 0 is never",
-             &Q::termination, number({.minimum = 0, .maximum = 0.5}))});
+      {chosenByError("step_voxels", "Distance of samples, in smallest voxel spacings",
+                     &Q::stepVoxels, {.minimum = kSmallestStepVoxels, .maximum = 100}),
+       chosenByError("termination",
+                     "Rays end when their transmittance falls below this; 0 is never",
+                     &Q::termination, {.minimum = 0, .maximum = 0.5}),
+       field("preintegrated",
+             "Classify all values between the ends of a segment, not only that of its middle",
+             &Q::preintegrated, boolean()),
+       field("max_error",
+             "Largest error asked for, of premultiplied linear colour; instead of step_voxels and "
+             "termination",
+             &Q::maxError, number({.minimum = 1e-4, .maximum = 0.5}))},
+      [](const At& at, const Q&) {
+        if (at.node.find("max_error") == nullptr) return;
+        for (const char* key : {"step_voxels", "termination"})
+          if (at.node.find(key) != nullptr)
+            at.fail("'max_error' chooses '{}' itself: give one of the two", key);
+      });
 }
 
 constexpr double kVersion = 1;

@@ -20,7 +20,10 @@ class Maker {
     s.lights = several<Light>(1, [&] { return Light{vector(), chance(), colour(), real(0, 100)}; });
     s.layers = several<Layer>(1, [&] { return layer(); });
     s.clip = several<ClipPlane>(0, [&] { return ClipPlane{vector(), any()}; });
-    s.quality = {real(1e-9, 100), real(0, 0.5)};
+    if (chance())
+      s.quality = {real(kSmallestStepVoxels, 100), real(0, 0.5), chance(), std::nullopt};
+    else
+      s.quality.maxError = real(1e-4, 0.5);
     return s;
   }
 

@@ -23,9 +23,9 @@ TEST(SceneError, UnknownKeyNamesPlacePathAndNearest) {
             "s.json:3:37: layers[0].style.tone.strengh: unknown key; did you mean 'strength'?");
   EXPECT_EQ(complaint(with(R"("qualty": {})")),
             "s.json:2:1: qualty: unknown key; did you mean 'quality'?");
-  EXPECT_EQ(
-      complaint(with(R"("quality": { "max_error": 0.1 })")),
-      "s.json:2:14: quality.max_error: unknown key; expected one of 'step_voxels', 'termination'");
+  EXPECT_EQ(complaint(with(R"("quality": { "error": 0.1 })")),
+            "s.json:2:14: quality.error: unknown key; expected one of 'step_voxels', "
+            "'termination', 'preintegrated', 'max_error'");
 }
 
 TEST(SceneError, ColumnsCountCharactersAndTabs) {
@@ -219,7 +219,11 @@ INSTANTIATE_TEST_SUITE_P(
         Case{R"("quality": { "step_voxels": 0 })",
              "quality.step_voxels: expected a number in [0.001, 100], found 0"},
         Case{R"("quality": { "termination": 0.6 })",
-             "quality.termination: expected a number in [0, 0.5], found 0.6"}));
+             "quality.termination: expected a number in [0, 0.5], found 0.6"},
+        Case{R"("quality": { "max_error": 0.01, "step_voxels": 1 })",
+             "quality: 'max_error' chooses 'step_voxels' itself: give one of the two"},
+        Case{R"("quality": { "preintegrated": 1 })",
+             "quality.preintegrated: expected true or false, found 1"}));
 
 /// A scene with one layer, whose second line is its transfer function's points and style.
 std::string layer(const std::string& points, const std::string& style = "{}") {

@@ -159,6 +159,14 @@ TEST(LightDirection, EyeSpaceIsRightUpAndToTheViewer) {
 TEST(SceneNeeds, GhostLayersAndGradientsFollowTheStyles) {
   Scene scene;
   scene.layers.resize(2);
+  EXPECT_EQ(ghostLayersNeeded(scene), 1);  // half a pre-integrated segment
+  scene.quality = {.stepVoxels = 1.9, .preintegrated = true};
+  EXPECT_EQ(ghostLayersNeeded(scene), 1);
+  scene.quality.stepVoxels = 2;  // at 30° fov oblique segments are longer than the planes' distance
+  EXPECT_EQ(ghostLayersNeeded(scene), 2);
+  scene.camera.projection = Projection::kOrthographic;
+  EXPECT_EQ(ghostLayersNeeded(scene), 1);
+  scene.quality.preintegrated = false;
   EXPECT_EQ(ghostLayersNeeded(scene), 0);
   EXPECT_FALSE(gradientNeeded(scene));
   scene.layers[0].styles = {defaultSettings(*findStyle("gradient"))};  // settings of nothing

@@ -16,6 +16,8 @@ namespace burin {
 
 /// Largest side of a picture, in pixels; llvmpipe's largest target.
 inline constexpr int kLargestImageSide = 16384;
+/// Largest step that is chosen for quality.max_error; smaller ones are halves of it.
+inline constexpr double kLargestChosenStep = 4;
 /// Smallest distance of sample planes, in multiples of the smallest spacing.
 inline constexpr double kSmallestStepVoxels = 1e-3;
 /// Most sample planes across a volume: single precision tells them and their middles apart.
@@ -81,6 +83,12 @@ struct ClipPlane {
 struct Quality {
   double stepVoxels = 0.5;
   double termination = 0.002;  ///< rays end when transmittance < termination; 0: never
+  /// A segment's colour and extinction are means over the values between its ends, not those of its
+  /// middle.
+  bool preintegrated = true;
+  /// Largest difference (premultiplied linear RGBA) to the converged picture that is asked for: the
+  /// renderer then chooses the step for each view, and rays end at an eighth of it.
+  std::optional<double> maxError;
   friend bool operator==(const Quality&, const Quality&) = default;
 };
 
@@ -127,7 +135,8 @@ Camera resolveCamera(const Scene& scene, const VolumeFacts& volume, double extra
 /// Unit world direction to the light.
 glm::dvec3 lightDirectionWorld(const Light& light, const Camera& camera);
 
-/// Largest ghost width that any layer's styles declare, 0 if none needs neighbours.
+/// Largest ghost width that any layer's styles declare or that the ends of pre-integrated segments
+/// need; 0 if nothing looks beyond a brick's own cells.
 int ghostLayersNeeded(const Scene& scene);
 /// Whether any layer needs gradients.
 bool gradientNeeded(const Scene& scene);
