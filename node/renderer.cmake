@@ -12,7 +12,7 @@ add_library(burin_gl_loader STATIC ${glad_dir}/src/gl.c)
 target_include_directories(burin_gl_loader PUBLIC $<BUILD_INTERFACE:${glad_dir}/include>)
 
 set(shader_files
-  fullscreen.vert lattice.glsl volume.glsl skip.glsl shading.glsl raycast.glsl
+  fullscreen.vert lattice.glsl volume.glsl skip.glsl preintegration.glsl sides.glsl shading.glsl raycast.glsl
   styles/surface.glsl styles/light.glsl styles/tone.glsl styles/edges.glsl styles/specular.glsl)
 list(TRANSFORM shader_files PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/shaders/ OUTPUT_VARIABLE shader_paths)
 set(embedded ${CMAKE_CURRENT_BINARY_DIR}/embedded_shaders.cpp)
@@ -25,8 +25,9 @@ add_custom_command(
 
 burin_library(node
   SOURCES src/gl.cpp src/osmesa_context.cpp src/offscreen_context.cpp src/thread_share.cpp src/shader_source.cpp
-          src/gl_program.cpp src/program_generator.cpp src/transfer_table.cpp src/value_scale.cpp
-          src/macrocells.cpp src/brick_texture.cpp src/brick.cpp src/cost_estimate.cpp
+          src/gl_program.cpp src/program_generator.cpp src/transfer_integral.cpp src/transfer_table.cpp
+          src/visible_values.cpp src/value_scale.cpp src/macrocells.cpp src/chessboard_distance.cpp
+          src/step_map.cpp src/brick_texture.cpp src/brick.cpp src/cost_estimate.cpp
           src/raycaster.cpp src/worker.cpp ${embedded}
   PUBLIC burin::volumes burin::compositor
   PRIVATE $<BUILD_INTERFACE:burin_gl_loader> ${CMAKE_DL_LIBS})

@@ -1,5 +1,6 @@
 // Marches one brick's part of each ray, front to back. Included by the generated program, which
-// defines LAYERS, LIGHTS, CLIP_PLANES, the classification of each layer and shadeSample().
+// defines LAYERS, LIGHTS, CLIP_PLANES, PREINTEGRATED, the classification of each layer and
+// shadeSample().
 //
 // out  target 0: premultiplied linear RGBA of this brick alone
 
@@ -33,32 +34,73 @@ void main() {
   while (j <= last && !owned(samplePosition(ray, j))) ++j;
   while (last > j && !owned(samplePosition(ray, last))) --last;
 
+  // The driver moves nothing out of loops, evaluates both sides of every branch and the body of every
+  // loop at least once. So what the loop needs is computed here, it has no loops inside, and each
+  // round looks at the macrocell of the next segment and up the volume once.
   uint visited = 0u, shaded = 0u, inOccupied = 0u, leaps = 0u;
-  SkipState skip = SkipState(j, false);
+  SkipState skip = beginSkipping(ray, j);
+  prepareVolume();
+  prepareLayers();
+  vec3 coordinateOrigin = textureCoordinate(ray.origin);
+  vec3 coordinateAlong = ray.along * texelSize;
   vec3 toEye = directionToEye();
+  float opaque = 1.0 - termination;
   vec4 sum = vec4(0.0);
+#ifdef PREINTEGRATED
+  Side front;
+  front.value = front.valid = 0.0;
+  bool begun = false;  // whether `front` is where segment j begins
+#endif
   while (j <= last) {
-    vec3 position = samplePosition(ray, j);
-    if (j >= skip.knownUntil) {
-      int next = nextVisit(ray, j, position, skip);
-      if (next != j) {
-        j = next;
-        ++leaps;
-        continue;
-      }
-    }
-    ++visited;
-    if (skip.occupied) ++inOccupied;
-    vec3 colour;
-    float extinction;
-    if (shadeSample(position, toEye, colour, extinction)) {
-      ++shaded;
-      float length = (segmentEnd(ray, j) - segmentBegin(ray, j)) * ray.planeWorld;
-      float weight = (1.0 - sum.a) * opacityOf(extinction * length);
+    int before = j;
+    if (j >= skip.knownUntil) lookAhead(ray, j, skip);
+    bool visit = j < skip.knownUntil && j <= last;
+    float begin = segmentBegin(ray, j);
+    float end = segmentEnd(ray, j);
+    vec3 coordinate = coordinateOrigin + 0.5 * (begin + end) * coordinateAlong;
+#ifdef PREINTEGRATED
+    begun = begun && j == before;
+    Side back = sideAt(coordinateOrigin + (begun ? end : begin) * coordinateAlong);
+#ifdef INVALID_VOXELS
+    vec2 middle = volumeLookUp(coordinate);
+    bool counts = middle.y > 0.0;
+    Side from = mended(front, middle.x);
+    Side to = mended(back, middle.x);
+#else
+    const bool counts = true;
+    Side from = front;
+    Side to = back;
+#endif
+    bool sampled = visit && begun;
+    bool visible = sampled && classify(from, to) && counts;
+#else
+    vec2 middle = volumeLookUp(coordinate);
+    bool sampled = visit;
+    bool visible = sampled && classify(middle.x) && middle.y > 0.0;
+#endif
+    if (visible) {
+      vec3 colour;
+      float extinction;
+#ifdef PREINTEGRATED
+      shade(coordinate, from, to, toEye, colour, extinction);
+#else
+      shade(coordinate, toEye, colour, extinction);
+#endif
+      float weight = (1.0 - sum.a) * opacityOf(extinction * (end - begin) * ray.planeWorld);
       sum += vec4(colour * weight, weight);
-      if (1.0 - sum.a < termination) break;
     }
-    ++j;
+#ifdef PREINTEGRATED
+    front = back;
+    begun = visit;
+#endif
+#ifdef COUNT_SAMPLES
+    visited += uint(sampled);
+    shaded += uint(visible);
+    inOccupied += uint(sampled && skip.occupied);
+    leaps += uint(j != before);
+#endif
+    j += int(sampled);
+    last = sum.a > opaque ? j - 1 : last;
   }
   result = sum;
 #ifdef COUNT_SAMPLES

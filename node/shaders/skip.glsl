@@ -1,35 +1,76 @@
 // Empty-space skipping in one brick. The map holds, per macrocell of kCell^3 cells, the chessboard
-// distance in macrocells to the nearest one that may be visible (0: it may itself). Cells are
-// aligned to the global cell grid. Leaving samples out never changes a picture: positions stay on
+// distance in macrocells to the nearest one that may be visible, or, for one that may be visible
+// itself, minus the distance to the nearest one that cannot. Cells are aligned to the global grid. Leaving samples out never changes a picture: positions stay on
 // the lattice and only samples in empty macrocells are passed over.
 
-uniform usampler3D distanceMap;
+uniform isampler3D distanceMap;
 uniform vec3 cellOffset;   // added to a position: voxels from the map's corner
 uniform bool skipEmpty;    // false: visit everything (for comparison)
 
 const float kCell = 4.0;   // kMacrocellSize in macrocells.hpp
-// Planes; far above the rounding of an exit, far below a step's worth of samples.
-const float kExitMargin = 1e-3;
+// Planes; far above the rounding of an exit, and at most 1e-3 voxels, by how much the ranges of
+// macrocells may be overstepped (Macrocells::finish).
+uniform float exitMargin;
 
+// The ray in units of macrocells, and what leaving them takes.
 struct SkipState {
-  int knownUntil;  // first lattice index about whose macrocell nothing is known
-  bool occupied;   // of the samples before knownUntil
+  vec3 origin, along;  // along is never 0
+  vec3 inverse;        // of along
+  vec3 ahead;          // per axis 1 if the ray ascends, else 0
+  int knownUntil;      // first segment of which nothing is known
+  bool occupied;       // of the segments before knownUntil
+  float emptyUntil;    // planes: the ray crosses nothing visible before
 };
 
-// Looks up the macrocell of sample j at `position`. Sets state; returns the first index that needs
-// a visit (j itself if the macrocell may be visible).
-int nextVisit(Ray ray, int j, vec3 position, inout SkipState state) {
-  vec3 inMap = position + cellOffset;
-  ivec3 size = textureSize(distanceMap, 0);
-  ivec3 cell = clamp(ivec3(floor(inMap / kCell)), ivec3(0), size - 1);
-  int distance = int(texelFetch(distanceMap, cell, 0).r);
-  int reach = max(distance - 1, 0);
-  vec3 lo = vec3(cell - reach) * kCell - cellOffset;
-  vec3 hi = vec3(cell + reach + 1) * kCell - cellOffset;
-  float exit = boxInterval(ray.origin, ray.along, lo, hi).y;
-  // Samples lie at j + 1/2, or before it in the last segment: all below the exit share this box.
-  int next = max(j + 1, int(ceil(min(exit, ray.end + 1.0) - kExitMargin - 0.5)));
-  state.knownUntil = next;
-  state.occupied = distance == 0;
-  return state.occupied || !skipEmpty ? j : next;
+SkipState beginSkipping(Ray ray, int j) {
+  SkipState state;
+  state.origin = (ray.origin + cellOffset) * (1.0 / kCell);
+  state.along = ray.along * (1.0 / kCell);
+  for (int axis = 0; axis < 3; ++axis)
+    if (abs(state.along[axis]) < 1e-25) state.along[axis] = 1e-25;
+  state.inverse = 1.0 / state.along;
+  state.ahead = vec3(greaterThan(state.along, vec3(0.0)));
+  state.knownUntil = j;
+  state.occupied = false;
+  state.emptyUntil = segmentBegin(ray, j);
+  return state;
 }
+
+// The macrocell at `where` planes: whether it may be visible, and how far the ray stays in
+// macrocells of which the same is true.
+float macrocellExit(inout SkipState state, float where) {
+  vec3 cell = floor(state.origin + where * state.along);
+  cell = clamp(cell, vec3(0.0), vec3(textureSize(distanceMap, 0) - 1));
+  int distance = texelFetch(distanceMap, ivec3(cell), 0).r;
+  state.occupied = distance < 0;
+  float reach = float(abs(distance) - 1);
+  vec3 corner = cell + state.ahead + (2.0 * state.ahead - 1.0) * reach;
+  vec3 exits = (corner - state.origin) * state.inverse;
+  return min(exits.x, min(exits.y, exits.z));
+}
+
+// What is known of the segments from j on. Afterwards either segment j needs a visit, as do all
+// before knownUntil, or j was moved on to the next segment that may need one.
+#ifdef PREINTEGRATED
+// A segment needs a visit if it crosses any macrocell that may be visible.
+void lookAhead(Ray ray, inout int j, inout SkipState state) {
+  float from = max(segmentBegin(ray, j), state.emptyUntil);
+  float exit = min(macrocellExit(state, from), ray.end + 1.0);
+  // Without progress in this number format the segment counts as occupied.
+  state.occupied = state.occupied || !(exit + exitMargin > from);
+  state.emptyUntil = state.occupied ? from : exit + exitMargin;
+  int begunBefore = max(j + 1, int(ceil(exit)));
+  int emptyBefore = int(floor(exit + exitMargin));  // the segment in which the exit lies
+  state.knownUntil = state.occupied ? begunBefore : emptyBefore;
+  j = state.occupied || !skipEmpty ? j : emptyBefore;
+}
+#else
+// A segment needs a visit if its sample is in a macrocell that may be visible.
+void lookAhead(Ray ray, inout int j, inout SkipState state) {
+  float where = 0.5 * (segmentBegin(ray, j) + segmentEnd(ray, j));
+  float exit = min(macrocellExit(state, where), ray.end + 1.0);
+  // Samples lie at j + 1/2, or before it in the last segment: all below the exit share this box.
+  state.knownUntil = max(j + 1, int(ceil(exit - exitMargin - 0.5)));
+  j = state.occupied || !skipEmpty ? j : state.knownUntil;
+}
+#endif

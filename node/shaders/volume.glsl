@@ -22,15 +22,18 @@ vec2 volumeLookUp(vec3 coordinate) {
 vec2 volumeLookUp(vec3 coordinate) { return vec2(texture(volume, coordinate).r, 1.0); }
 #endif
 
+vec3 texelSize;  // textureScale, kept over the loop
+
+void prepareVolume() { texelSize = textureScale; }
+
 // Central differences of the trilinear field at +-1 voxel, per voxel, not halved. Zero where a tap
 // is not valid. Edges of the texture clamp, which at the volume's border is the definition.
-vec3 volumeDifferences(vec3 position) {
-  vec3 coordinate = textureCoordinate(position);
+vec3 volumeDifferences(vec3 coordinate) {
   vec3 difference;
   float valid = 1.0;
   for (int axis = 0; axis < 3; ++axis) {
     vec3 offset = vec3(0.0);
-    offset[axis] = textureScale[axis];
+    offset[axis] = texelSize[axis];
     vec2 above = volumeLookUp(coordinate + offset);
     vec2 below = volumeLookUp(coordinate - offset);
     difference[axis] = above.x - below.x;

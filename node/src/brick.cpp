@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "chessboard_distance.hpp"
+
 namespace burin::node {
 
 IndexBox storedVoxels(const IndexBox& cells, int ghostLayers, const VolumeGrid& grid) {
@@ -17,7 +19,7 @@ Brick::Brick(BrickId id, const IndexBox& cells, int ghostLayers, const VolumeInf
       macrocells_{texture_.storedVoxels()},
       distances_{makeTexture(GL_TEXTURE_3D)} {
   const glm::ivec3 size = macrocells_.size();
-  gl().TextureStorage3D(distances_.id(), 1, GL_R8UI, size.x, size.y, size.z);
+  gl().TextureStorage3D(distances_.id(), 1, GL_R8I, size.x, size.y, size.z);
   gl().TextureParameteri(distances_.id(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   gl().TextureParameteri(distances_.id(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   checkGl("making a distance map");
@@ -28,25 +30,15 @@ void Brick::upload(const IndexBox& box, std::span<const std::byte> voxels, Stagi
   macrocells_.add(box, staging.values);
 }
 
-void Brick::classify(const Scene& scene, std::span<const TransferTable> tables,
-                     const ValueScale& scale) {
-  const auto visible = [&](float lowest, float highest) {
-    for (std::size_t i = 0; i < tables.size(); ++i) {
-      const TransferFunction& function = scene.layers[i].transferFunction;
-      const double bin = tables[i].binWidth();
-      if (function.largestExtinction(scale.value(double{lowest}) - bin,
-                                     scale.value(double{highest}) + bin,
-                                     function.opacityUnitLength.value()) > 0)
-        return true;
-    }
-    return false;
-  };
-  const std::vector<std::uint8_t> distances = macrocells_.distances(visible);
-  visibleCells_ = intersection(macrocells_.visibleCells(distances), cells_);
+void Brick::classify(const VisibleValues& visible) {
+  const std::vector<std::uint8_t> marks =
+      macrocells_.mark([&](float lowest, float highest) { return visible.any(lowest, highest); });
+  visibleCells_ = intersection(macrocells_.boxOf(marks), cells_);
   const glm::ivec3 size = macrocells_.size();
+  const std::vector<std::int8_t> distances = signedChessboardDistance(marks, size);
   gl().PixelStorei(GL_UNPACK_ALIGNMENT, 1);
   gl().TextureSubImage3D(distances_.id(), 0, 0, 0, 0, size.x, size.y, size.z, GL_RED_INTEGER,
-                         GL_UNSIGNED_BYTE, distances.data());
+                         GL_BYTE, distances.data());
   checkGl("uploading a distance map");
 }
 

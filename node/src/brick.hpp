@@ -2,9 +2,8 @@
 
 #include "brick_texture.hpp"
 #include "burin/common/brick_tree.hpp"
-#include "burin/common/scene.hpp"
 #include "macrocells.hpp"
-#include "transfer_table.hpp"
+#include "visible_values.hpp"
 
 namespace burin::node {
 
@@ -21,9 +20,8 @@ class Brick {
   /// After the last upload.
   void finishLoading() { macrocells_.finish(); }
 
-  /// Distance map and visible cells for these tables (a macrocell is visible if any layer's
-  /// extinction is above 0 within its range widened by one table bin).
-  void classify(const Scene& scene, std::span<const TransferTable> tables, const ValueScale& scale);
+  /// Distance map and visible cells for what the scene shows now.
+  void classify(const VisibleValues& visible);
 
   BrickId id() const { return id_; }
   const IndexBox& cells() const { return cells_; }

@@ -36,7 +36,7 @@ void convert(std::span<const std::byte> bytes, std::vector<std::uint16_t>& texel
 /// Stored value of a float voxel; infinities clamp to the ends of the finite range.
 float storedFloat(float voxel, const ValueScale& scale) {
   if (std::isnan(voxel)) return voxel;
-  return static_cast<float>(std::clamp(scale.stored(double{voxel}), 0.0, 1.0));
+  return static_cast<float>(std::clamp(scale.stored(double{voxel}), 0.0, scale.largestStored));
 }
 
 /// Fills the staging buffer with a slab's values and texels; returns the texels.

@@ -114,45 +114,14 @@ void Macrocells::finish() {
   }
 }
 
-std::vector<std::uint8_t> Macrocells::distances(
-    const std::function<bool(float, float)>& visible) const {
-  std::vector<std::uint8_t> distance(lowest_.size());
-  for (std::size_t i = 0; i < distance.size(); ++i) {
-    const bool hasValues = lowest_[i] <= highest_[i];
-    distance[i] = hasValues && visible(lowest_[i], highest_[i]) ? 0 : 255;
-  }
-  // Two raster scans with the 13 neighbours already passed give the exact chessboard distance
-  // (Rosenfeld and Pfaltz 1968).
-  const auto relax = [&](const glm::ivec3& at, int direction) {
-    std::uint8_t& mine = distance[index(at.x, at.y, at.z)];
-    for (int dz = -1; dz <= 0; ++dz)
-      for (int dy = -1; dy <= (dz < 0 ? 1 : 0); ++dy)
-        for (int dx = -1; dx <= (dz < 0 || dy < 0 ? 1 : -1); ++dx) {
-          const glm::ivec3 n = at + direction * glm::ivec3{dx, dy, dz};
-          if (glm::any(glm::lessThan(n, glm::ivec3{0})) ||
-              glm::any(glm::greaterThanEqual(n, size_)))
-            continue;
-          const int around = distance[index(n.x, n.y, n.z)] + 1;
-          if (around < mine) mine = static_cast<std::uint8_t>(around);
-        }
-  };
-  for (int z = 0; z < size_.z; ++z)
-    for (int y = 0; y < size_.y; ++y)
-      for (int x = 0; x < size_.x; ++x) relax({x, y, z}, 1);
-  for (int z = size_.z - 1; z >= 0; --z)
-    for (int y = size_.y - 1; y >= 0; --y)
-      for (int x = size_.x - 1; x >= 0; --x) relax({x, y, z}, -1);
-  return distance;
-}
-
-IndexBox Macrocells::visibleCells(std::span<const std::uint8_t> distances) const {
+IndexBox Macrocells::boxOf(std::span<const std::uint8_t> marks) const {
   glm::ivec3 lo = size_;
   glm::ivec3 hi{0};
   std::size_t i = 0;
   for (int z = 0; z < size_.z; ++z)
     for (int y = 0; y < size_.y; ++y)
       for (int x = 0; x < size_.x; ++x, ++i) {
-        if (distances[i] != 0) continue;
+        if (marks[i] == 0) continue;
         lo = glm::min(lo, glm::ivec3{x, y, z});
         hi = glm::max(hi, glm::ivec3{x, y, z} + 1);
       }

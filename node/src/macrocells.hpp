@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
@@ -33,13 +32,17 @@ class Macrocells {
   glm::ivec3 origin() const { return kMacrocellSize * firstCell_; }
   std::size_t bytes() const { return (lowest_.size() + highest_.size()) * sizeof(float); }
 
-  /// Per macrocell the chessboard distance (capped at 255) to the nearest macrocell whose range is
-  /// `visible`; 0 where it is itself. x fastest.
-  std::vector<std::uint8_t> distances(
-      const std::function<bool(float lowest, float highest)>& visible) const;
+  /// Per macrocell 1 if visible(lowest, highest) says so of its range; x fastest.
+  template <typename Visible>
+  std::vector<std::uint8_t> mark(const Visible& visible) const {
+    std::vector<std::uint8_t> marks(lowest_.size());
+    for (std::size_t i = 0; i < marks.size(); ++i)
+      marks[i] = lowest_[i] <= highest_[i] && visible(lowest_[i], highest_[i]) ? 1 : 0;
+    return marks;
+  }
 
-  /// Cells (global) covered by the macrocells at distance 0; empty if none.
-  IndexBox visibleCells(std::span<const std::uint8_t> distances) const;
+  /// Cells (global) of the box around the marked macrocells; empty if none.
+  IndexBox boxOf(std::span<const std::uint8_t> marks) const;
 
  private:
   std::size_t index(int x, int y, int z) const;

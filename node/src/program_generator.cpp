@@ -99,24 +99,58 @@ class LayerCode {
     for (std::size_t i = 0; i < scene.layers.size(); ++i) add(i);
   }
 
-  std::string text() const { return curves_.text() + styleCode() + uniforms_ + shadeSample(); }
+  std::string text() const { return curves_.text() + styleCode() + uniforms_ + functions(); }
 
  private:
   void add(std::size_t i) {
     const Layer& layer = scene_.layers[i];
-    uniforms_ += fmt::format("uniform sampler1D {};\nuniform vec3 {};\n", transferUniform(i),
-                             transferScaleUniform(i));
-    classify_ +=
-        fmt::format("  vec4 class{0} = texture({1}, ((look.x - {2}.x) * {2}.y + 0.5) * {2}.z);\n",
-                    i, transferUniform(i), transferScaleUniform(i));
-    total_ += fmt::format("{}class{}.a", i == 0 ? "" : " + ", i);
+    uniforms_ += fmt::format("uniform sampler1DArray {0};\nuniform vec4 {1};\nvec4 scale{2};\n",
+                             transferUniform(i), transferScaleUniform(i), i);
+    prepare_ += fmt::format("  scale{} = {};\n", i, transferScaleUniform(i));
+    uniforms_ += fmt::format("float extinction{};\n", i);  // of the segment classified last
+    if (scene_.quality.preintegrated) {
+      addSegmentClass(i);
+    } else {
+      addMiddleClass(i);
+    }
+    total_ += fmt::format("{}extinction{}", i == 0 ? "" : " + ", i);
     body_ += fmt::format(
-        "  if (class{0}.a > 0.0) {{\n"
-        "    Shading s = Shading(class{0}.rgb, class{0}.a, vec3(0.0), 0.0);\n",
-        i);
+        "  if (extinction{0} > 0.0) {{\n"
+        "    Shading s = Shading({1}, extinction{0}, vec3(0.0), 0.0);\n",
+        i, colourOf(i));
     if (gradientNeededBy(layer)) addSurface(i, layer);
     addStyles(i, layer);
     body_ += "    colour += s.extinction * s.colour;\n    extinction += s.extinction;\n  }\n";
+  }
+
+  /// The class of the middle's value.
+  void addMiddleClass(std::size_t i) {
+    uniforms_ += fmt::format("vec4 class{};\nuniform vec2 {};\n", i, visibleBinsUniform(i));
+    classify_ += fmt::format(
+        "  float x{0} = (middle - scale{0}.x) * scale{0}.y;\n"
+        "  class{0} = texture({1}, vec2((x{0} + 0.5) * scale{0}.w, 0.0));\n"
+        "  extinction{0} = x{0} > {2}.x && x{0} < {2}.y ? class{0}.a : 0.0;\n",
+        i, transferUniform(i), visibleBinsUniform(i));
+  }
+
+  /// Means over the values between the segment's ends.
+  void addSegmentClass(std::size_t i) {
+    uniforms_ += fmt::format("vec4 first{0}, end{0};\n", i);
+    prepare_ += fmt::format(
+        "  first{0} = texelFetch({1}, ivec2(0), 0);\n"
+        "  end{0} = texelFetch({1}, ivec2(int(scale{0}.z), 0), 0);\n",
+        i, transferUniform(i));
+    ends_ += fmt::format("  side.layers[{0}] = classifyEnd({1}, scale{0}, side.value);\n", i,
+                         transferUniform(i));
+    classify_ += fmt::format(
+        "  extinction{0} = meanExtinction(scale{0}, front.layers[{0}], back.layers[{0}]);\n", i);
+  }
+
+  std::string colourOf(std::size_t i) const {
+    if (!scene_.quality.preintegrated) return fmt::format("class{}.rgb", i);
+    return fmt::format(
+        "meanColour({1}, scale{0}, first{0}, end{0}, front.layers[{0}], back.layers[{0}])", i,
+        transferUniform(i));
   }
 
   static bool gradientNeededBy(const Layer& layer) {
@@ -142,7 +176,7 @@ class LayerCode {
       body_ += fmt::format("    {{\n    {0}_parameters p;\n{1}    apply_{0}(s, {2}p);\n    }}\n",
                            style.name, code.statements, style.needsGradient ? "g, " : "");
     }
-    body_ += fmt::format("    drawLines(s, class{}.a);\n", i);
+    body_ += fmt::format("    drawLines(s, extinction{});\n", i);
   }
 
   std::string styleCode() const {
@@ -154,24 +188,32 @@ class LayerCode {
     return text;
   }
 
-  std::string shadeSample() const {
+  /// classify(): whether a segment shows anything in any layer; shade(): its colour and extinction
+  /// after the styles, for a segment that was classified last.
+  std::string functions() const {
+    const bool preintegrated = scene_.quality.preintegrated;
     std::string text = gradient_ ? "uniform mat3 differencesToGradient;\n" : "";
-    text +=
-        "bool shadeSample(vec3 position, vec3 toEye, out vec3 colour, out float extinction) {\n"
-        "  vec2 look = volumeLookUp(textureCoordinate(position));\n" +
-        classify_ + "  if (look.y == 0.0 || " + total_ + " <= 0.0) return false;\n";
+    text += "void prepareLayers() {\n" + prepare_ + "}\n";
+    if (preintegrated)
+      text += "void classifySide(inout Side side) {\n" + ends_ + "}\n#include \"sides.glsl\"\n";
+    text += fmt::format("bool classify({}) {{\n",
+                        preintegrated ? "Side front, Side back" : "float middle");
+    text += classify_ + "  return " + total_ + " > 0.0;\n}\n";
+    text += fmt::format(
+        "void shade(vec3 coordinate, {}vec3 toEye, out vec3 colour, out float extinction) {{\n",
+        preintegrated ? "Side front, Side back, " : "");
     if (gradient_)
       text +=
-          "  vec3 gradient = differencesToGradient * volumeDifferences(position);\n"
+          "  vec3 gradient = differencesToGradient * volumeDifferences(coordinate);\n"
           "  float magnitude = length(gradient);\n";
     return text + "  colour = vec3(0.0);\n  extinction = 0.0;\n" + body_ +
-           "  if (extinction <= 0.0) return false;\n  colour /= extinction;\n  return true;\n}\n";
+           "  if (extinction > 0.0) colour /= extinction;\n}\n";
   }
 
   const Scene& scene_;
   bool gradient_;
   CurveSet curves_;
-  std::string uniforms_, classify_, total_, body_;
+  std::string uniforms_, prepare_, ends_, classify_, total_, body_;
 };
 
 }  // namespace
@@ -189,6 +231,9 @@ std::string transferUniform(std::size_t layer) {
 std::string transferScaleUniform(std::size_t layer) {
   return fmt::format("transferScale{}", layer);
 }
+std::string visibleBinsUniform(std::size_t layer) {
+  return fmt::format("visibleBins{}", layer);
+}
 std::string magnitudeUniform(std::size_t layer) {
   return fmt::format("magnitude{}", layer);
 }
@@ -199,8 +244,11 @@ ShaderSource generateRaycastProgram(const Scene& scene, const ProgramOptions& op
                       scene.clip.size());
   if (options.invalidVoxels) text += "#define INVALID_VOXELS\n";
   if (options.countSamples) text += "#define COUNT_SAMPLES\n";
+  if (scene.quality.preintegrated)
+    text += fmt::format("#define PREINTEGRATED\n#define LAYERS {}\n", scene.layers.size());
   for (const char* file : {"lattice.glsl", "volume.glsl", "skip.glsl", "shading.glsl"})
     text += fmt::format("#include \"{}\"\n", file);
+  if (scene.quality.preintegrated) text += "#include \"preintegration.glsl\"\n";
   text += LayerCode{scene}.text();
   text += "#include \"raycast.glsl\"\n";
   return expandIncludes(text, "raycast program");

@@ -22,8 +22,10 @@ ShaderSource generateRaycastProgram(const Scene& scene, const ProgramOptions& op
 /// Names of the uniforms that the generated program declares, in one place for both sides.
 std::string parameterUniform(std::size_t layer, std::string_view style, std::string_view parameter);
 std::string curveUniform(std::size_t layer, std::string_view style, std::string_view parameter);
-std::string transferUniform(std::size_t layer);       ///< sampler1D
-std::string transferScaleUniform(std::size_t layer);  ///< vec3: first value, bins/width, 1/entries
+std::string transferUniform(std::size_t layer);       ///< sampler1DArray
+std::string transferScaleUniform(std::size_t layer);  ///< vec4: first value, bins per unit,
+                                                      ///< bins, 1 / texels
+std::string visibleBinsUniform(std::size_t layer);    ///< vec2: nothing shows outside of it
 std::string magnitudeUniform(std::size_t layer);      ///< m = |gradient| * this
 
 }  // namespace burin::node

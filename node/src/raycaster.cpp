@@ -28,16 +28,25 @@ std::vector<TransferTable> makeTables(const Scene& scene, const ValueScale& scal
   return tables;
 }
 
-Texture uploadTable(const TransferTable& table) {
-  Texture texture = makeTexture(GL_TEXTURE_1D);
-  const auto count = static_cast<GLsizei>(table.entries.size());
-  gl().TextureStorage1D(texture.id(), 1, GL_RGBA32F, count);
-  gl().TextureSubImage1D(texture.id(), 0, 0, count, GL_RGBA, GL_FLOAT, table.entries.data());
+/// Rows of equal length as the layers of an array texture.
+Texture uploadRows(std::span<const std::span<const glm::vec4>> rows) {
+  Texture texture = makeTexture(GL_TEXTURE_1D_ARRAY);
+  const auto width = static_cast<GLsizei>(rows.front().size());
+  gl().TextureStorage2D(texture.id(), 1, GL_RGBA32F, width, static_cast<GLsizei>(rows.size()));
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    gl().TextureSubImage2D(texture.id(), 0, 0, static_cast<GLint>(i), width, 1, GL_RGBA, GL_FLOAT,
+                           rows[i].data());
   gl().TextureParameteri(texture.id(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   gl().TextureParameteri(texture.id(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   gl().TextureParameteri(texture.id(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   checkGl("uploading a transfer function");
   return texture;
+}
+
+Texture uploadTransferFunction(const TransferTable& table, bool preintegrated) {
+  const TransferRows rows = transferRows(table);
+  const std::array<std::span<const glm::vec4>, 3> all{rows.table, rows.colour, rows.extinction};
+  return uploadRows(std::span{all}.first(preintegrated ? 3 : 1));
 }
 
 /// curve[0].x is the start value; the others (x, length, slope) of each linear piece.
@@ -59,33 +68,50 @@ ShaderSource vertexSource() {
 
 Raycaster::Raycaster(const Scene& scene, const VolumeGrid& grid, const ValueScale& scale,
                      const GradientScales& gradients, const RaycastOptions& options)
-    : scene_{scene},
-      grid_{grid},
+    : grid_{grid},
       scale_{scale},
       gradients_{gradients},
       options_{options},
-      tables_{makeTables(scene, scale)},
-      program_{vertexSource(),
-               generateRaycastProgram(scene, {scale.hasInvalid, options.countSamples})},
       vertexArray_{makeVertexArray()},
       framebuffer_{makeFramebuffer()} {
-  for (const TransferTable& table : tables_) transferTextures_.push_back(uploadTable(table));
   if (options_.countSamples) {
     counters_ = makeBuffer();
     gl().NamedBufferStorage(counters_.id(), 4 * sizeof(GLuint), nullptr, GL_DYNAMIC_STORAGE_BIT);
   }
+  setScene(scene);
+}
+
+void Raycaster::setScene(const Scene& scene) {
+  const bool tablesStand = scene_.layers.size() == scene.layers.size() &&
+                           scene_.quality.preintegrated == scene.quality.preintegrated &&
+                           std::ranges::equal(scene_.layers, scene.layers, {},
+                                              &Layer::transferFunction, &Layer::transferFunction);
+  ShaderSource source = generateRaycastProgram(scene, {scale_.hasInvalid, options_.countSamples});
+  auto known = programs_.find(source.text);
+  if (known == programs_.end())
+    known = programs_.try_emplace(source.text, vertexSource(), source).first;
+  program_ = &known->second;
+  if (!tablesStand) {
+    std::vector<TransferTable> tables = makeTables(scene, scale_);
+    std::vector<Texture> textures;
+    for (const TransferTable& table : tables)
+      textures.push_back(uploadTransferFunction(table, scene.quality.preintegrated));
+    tables_ = std::move(tables);
+    transferTextures_ = std::move(textures);
+  }
+  scene_ = scene;
   setSceneUniforms();
 }
 
 void Raycaster::setSceneUniforms() {
-  program_.set("volume", static_cast<int>(kVolumeUnit));
-  program_.set("distanceMap", static_cast<int>(kDistanceUnit));
-  program_.set("skipEmpty", options_.skip ? 1 : 0);
-  program_.set("termination", static_cast<float>(scene_.quality.termination));
+  program_->set("volume", static_cast<int>(kVolumeUnit));
+  program_->set("distanceMap", static_cast<int>(kDistanceUnit));
+  program_->set("skipEmpty", options_.skip ? 1 : 0);
+  program_->set("termination", static_cast<float>(scene_.quality.termination));
   const Box box = grid_.boxIndex();
   const glm::dvec3 centre = grid_.centreIndex();
-  program_.set("boxLo", toFloat(box.lo - centre));
-  program_.set("boxHi", toFloat(box.hi - centre));
+  program_->set("boxLo", toFloat(box.lo - centre));
+  program_->set("boxHi", toFloat(box.hi - centre));
 
   std::vector<glm::vec4> planes;
   for (const ClipPlane& plane : scene_.clip) {
@@ -94,16 +120,16 @@ void Raycaster::setSceneUniforms() {
     const double offset = glm::dot(plane.normal, grid_.centreWorld()) + plane.offset;
     planes.emplace_back(glm::vec4{glm::dvec4{normal, offset} / glm::length(normal)});
   }
-  program_.set("clipPlane", planes);
+  program_->set("clipPlane", planes);
 
   // Differences of stored values at ±1 voxel → world gradient over gradientUnit().
-  program_.set("differencesToGradient", glm::mat3{glm::transpose(grid_.worldToIndex()) *
-                                                  (0.5 * scale_.range / gradientUnit())});
+  program_->set("differencesToGradient", glm::mat3{glm::transpose(grid_.worldToIndex()) *
+                                                   (0.5 * scale_.range / gradientUnit())});
 
   std::vector<glm::vec3> lightColours;
   for (const Light& light : scene_.lights)
     lightColours.push_back(toFloat(light.colour.linear() * light.intensity));
-  program_.set("lightColour", lightColours);
+  program_->set("lightColour", lightColours);
   for (std::size_t i = 0; i < scene_.layers.size(); ++i) setStyleUniforms(i);
 }
 
@@ -114,12 +140,13 @@ double Raycaster::gradientUnit() const {
 
 void Raycaster::setStyleUniforms(std::size_t layer) {
   const TransferTable& table = tables_[layer];
-  const auto entries = static_cast<double>(table.entries.size());
-  program_.set(transferUniform(layer), static_cast<int>(kFirstTransferUnit + layer));
-  program_.set(transferScaleUniform(layer),
-               glm::vec3{glm::dvec3{scale_.stored(table.first),
-                                    (entries - 1) * scale_.range / (table.last - table.first),
-                                    1 / entries}});
+  const auto bins = static_cast<double>(table.entries.size() - 1);
+  program_->set(visibleBinsUniform(layer), glm::vec2{table.visibleBins()});
+  program_->set(transferUniform(layer), static_cast<int>(kFirstTransferUnit + layer));
+  program_->set(transferScaleUniform(layer),
+                glm::vec4{glm::dvec4{scale_.stored(table.first),
+                                     bins * scale_.range / (table.last - table.first), bins,
+                                     1 / (bins + 2)}});
 
   const StyleSettings gradient = [&] {
     const StyleSettings* own = scene_.layers[layer].style("gradient");
@@ -127,9 +154,10 @@ void Raycaster::setStyleUniforms(std::size_t layer) {
   }();
   const bool byMaximum = gradient.word("magnitude") == "maximum";
   const double unit = byMaximum ? gradients_.maximum : gradients_.percentile;
-  program_.set(magnitudeUniform(layer), static_cast<float>(unit > 0 ? gradientUnit() / unit : 0.0));
-  program_.set(parameterUniform(layer, "gradient", "noise_floor"),
-               static_cast<float>(gradient.number("noise_floor")));
+  program_->set(magnitudeUniform(layer),
+                static_cast<float>(unit > 0 ? gradientUnit() / unit : 0.0));
+  program_->set(parameterUniform(layer, "gradient", "noise_floor"),
+                static_cast<float>(gradient.number("noise_floor")));
 
   for (const StyleSettings& settings : scene_.layers[layer].styles) {
     const StyleSpec& style = *findStyle(settings.name);
@@ -137,35 +165,40 @@ void Raycaster::setStyleUniforms(std::size_t layer) {
       const std::string_view parameter = style.parameters[i].name;
       const std::string name = parameterUniform(layer, style.name, parameter);
       if (const auto* number = std::get_if<double>(&settings.values[i]))
-        program_.set(name, static_cast<float>(*number));
+        program_->set(name, static_cast<float>(*number));
       else if (const auto* colour = std::get_if<Colour>(&settings.values[i]))
-        program_.set(name, toFloat(colour->linear()));
+        program_->set(name, toFloat(colour->linear()));
       else if (const auto* curve = std::get_if<Curve>(&settings.values[i]))
-        program_.set(curveUniform(layer, style.name, parameter), curvePieces(*curve));
+        program_->set(curveUniform(layer, style.name, parameter), curvePieces(*curve));
     }
   }
 }
 
+void Raycaster::setStepUniforms(const Camera& camera, double stepVoxels) {
+  const SampleLattice lattice = makeSampleLattice(camera, grid_, stepVoxels);
+  program_->set("exitMargin", static_cast<float>(1e-3 / std::max(stepVoxels, 1.0)));
+  program_->set("base", toFloat(lattice.base));
+  program_->set("baseX", toFloat(lattice.baseX));
+  program_->set("baseY", toFloat(lattice.baseY));
+  program_->set("along", toFloat(lattice.step));
+  program_->set("alongX", toFloat(lattice.stepX));
+  program_->set("alongY", toFloat(lattice.stepY));
+  program_->set("nearPlane", std::max(static_cast<float>(lattice.nearPlane), -kFar));
+  program_->set("stepWorld", static_cast<float>(lattice.stepWorld));
+}
+
 void Raycaster::setViewUniforms(const Camera& camera) {
-  const SampleLattice lattice = makeSampleLattice(camera, grid_, scene_.quality.stepVoxels);
-  program_.set("imageCentre", glm::vec2{0.5f * static_cast<float>(camera.image.width),
-                                        0.5f * static_cast<float>(camera.image.height)});
-  program_.set("base", toFloat(lattice.base));
-  program_.set("baseX", toFloat(lattice.baseX));
-  program_.set("baseY", toFloat(lattice.baseY));
-  program_.set("along", toFloat(lattice.step));
-  program_.set("alongX", toFloat(lattice.stepX));
-  program_.set("alongY", toFloat(lattice.stepY));
-  program_.set("nearPlane", std::max(static_cast<float>(lattice.nearPlane), -kFar));
-  program_.set("stepWorld", static_cast<float>(lattice.stepWorld));
-  program_.set("pixelSlope", static_cast<float>(lattice.pixelSlope));
-  program_.set("eyeward", toFloat(-camera.forward));
-  program_.set("eyewardX", toFloat(-lattice.pixelSlope * camera.right));
-  program_.set("eyewardY", toFloat(lattice.pixelSlope * camera.up));
+  const double slope = camera.projection == Projection::kPerspective ? camera.pixelSize : 0.0;
+  program_->set("imageCentre", glm::vec2{0.5f * static_cast<float>(camera.image.width),
+                                         0.5f * static_cast<float>(camera.image.height)});
+  program_->set("pixelSlope", static_cast<float>(slope));
+  program_->set("eyeward", toFloat(-camera.forward));
+  program_->set("eyewardX", toFloat(-slope * camera.right));
+  program_->set("eyewardY", toFloat(slope * camera.up));
   std::vector<glm::vec3> lights;
   for (const Light& light : scene_.lights)
     lights.push_back(toFloat(lightDirectionWorld(light, camera)));
-  program_.set("lightDirection", lights);
+  program_->set("lightDirection", lights);
 }
 
 void Raycaster::setBrickUniforms(const Brick& brick) {
@@ -177,12 +210,12 @@ void Raycaster::setBrickUniforms(const Brick& brick) {
     if (brick.cells().lo[axis] == 0) lo[axis] = -kFar;
     if (brick.cells().hi[axis] == cells[axis]) hi[axis] = kFar;
   }
-  program_.set("brickLo", lo);
-  program_.set("brickHi", hi);
+  program_->set("brickLo", lo);
+  program_->set("brickHi", hi);
   const IndexBox& stored = brick.storedVoxels();
-  program_.set("textureOffset", toFloat(centre - glm::dvec3{stored.lo} + 0.5));
-  program_.set("textureScale", toFloat(1.0 / glm::dvec3{stored.size()}));
-  program_.set("cellOffset", toFloat(centre - glm::dvec3{brick.mapOrigin()}));
+  program_->set("textureOffset", toFloat(centre - glm::dvec3{stored.lo} + 0.5));
+  program_->set("textureScale", toFloat(1.0 / glm::dvec3{stored.size()}));
+  program_->set("cellOffset", toFloat(centre - glm::dvec3{brick.mapOrigin()}));
   gl().BindTextureUnit(kVolumeUnit, brick.volumeTexture());
   gl().BindTextureUnit(kDistanceUnit, brick.distanceTexture());
 }
@@ -199,15 +232,14 @@ void Raycaster::resizeTarget(ImageSize size) {
   targetSize_ = size;
 }
 
-void Raycaster::drawPixels(const PixelRect& pixels, RankStatistics& statistics) {
+void Raycaster::drawPixels(const PixelRect& pixels, double stepVoxels, RankStatistics& statistics) {
   if (!options_.countSamples) {
     gl().Scissor(pixels.x0, pixels.y0, pixels.width(), pixels.height());
     gl().DrawArrays(GL_TRIANGLES, 0, 3);
     return;
   }
   // The counters are 32 bits wide: bands of rows whose rays cannot have more samples than that.
-  const double planes =
-      2 * grid_.boundingRadius() / (scene_.quality.stepVoxels * grid_.smallestSpacing()) + 2;
+  const double planes = 2 * grid_.boundingRadius() / (stepVoxels * grid_.smallestSpacing()) + 2;
   const int rows = std::max(1, static_cast<int>(0x1p32 / planes / pixels.width()));
   for (int y = pixels.y0; y < pixels.y1; y += rows) {
     constexpr std::array<GLuint, 4> kZero{};
@@ -231,7 +263,7 @@ void Raycaster::addCounters(RankStatistics& statistics) {
 
 compositor::SubimageView<Rgba> Raycaster::draw(
     const Camera& camera, std::span<const Brick* const> bricks, RankStatistics& statistics,
-    const std::function<std::span<Rgba>(std::size_t)>& room) {
+    const std::function<std::span<Rgba>(std::size_t)>& room, const StepMap* steps) {
   compositor::SubimageView<Rgba> subimage{camera.image, {}, {}};
   struct Job {
     const Brick* brick;
@@ -250,7 +282,7 @@ compositor::SubimageView<Rgba> Raycaster::draw(
 
   resizeTarget(camera.image);
   setViewUniforms(camera);
-  program_.use();
+  program_->use();
   gl().BindVertexArray(vertexArray_.id());
   gl().BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
   gl().Viewport(0, 0, camera.image.width, camera.image.height);
@@ -263,9 +295,16 @@ compositor::SubimageView<Rgba> Raycaster::draw(
   gl().ClearNamedFramebufferfv(framebuffer_.id(), GL_COLOR, 0, kNothing.data());
   for (std::size_t i = 0; i < transferTextures_.size(); ++i)
     gl().BindTextureUnit(kFirstTransferUnit + static_cast<GLuint>(i), transferTextures_[i].id());
+  double step = 0;
   for (const Job& job : jobs) {
     setBrickUniforms(*job.brick);
-    drawPixels(job.pixels, statistics);
+    std::vector<StepRun> runs{{scene_.quality.stepVoxels, job.pixels}};
+    if (steps != nullptr) runs = stepRuns(*steps, job.pixels);
+    for (const StepRun& run : runs) {
+      if (run.step != step) setStepUniforms(camera, run.step);
+      step = run.step;
+      drawPixels(run.pixels, step, statistics);
+    }
   }
   const std::span<Rgba> pixels = room(area.pixels());
   gl().ReadPixels(area.x0, area.y0, area.width(), area.height(), GL_RGBA, GL_FLOAT, pixels.data());

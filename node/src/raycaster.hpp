@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <span>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "burin/common/scene.hpp"
 #include "burin/common/statistics.hpp"
 #include "burin/compositor/subimage.hpp"
+#include "burin/node/step_map.hpp"
 #include "gl_program.hpp"
 #include "program_generator.hpp"
 
@@ -34,13 +36,19 @@ class Raycaster {
   Raycaster(const Scene& scene, const VolumeGrid& grid, const ValueScale& scale,
             const GradientScales& gradients, const RaycastOptions& options);
 
+  /// Draws this scene from now on (same volume). Programs are kept: going back to a set of styles
+  /// compiles nothing. If it throws, the scene before stays.
+  void setScene(const Scene& scene);
+
   std::span<const TransferTable> transferTables() const { return tables_; }
 
   /// Draws `bricks`, given front to back, blending each behind the ones before it. Adds the sample
-  /// counters to `statistics` if they are counted. `room(n)`: where n pixels go.
+  /// counters to `statistics` if they are counted. `room(n)`: where n pixels go. `steps` replaces
+  /// the scene's step if given.
   compositor::SubimageView<Rgba> draw(const Camera& camera, std::span<const Brick* const> bricks,
                                       RankStatistics& statistics,
-                                      const std::function<std::span<Rgba>(std::size_t)>& room);
+                                      const std::function<std::span<Rgba>(std::size_t)>& room,
+                                      const StepMap* steps);
 
  private:
   /// World gradient magnitude that counts as 1 in the program before a layer's own scale.
@@ -48,9 +56,10 @@ class Raycaster {
   void setSceneUniforms();
   void setStyleUniforms(std::size_t layer);
   void setViewUniforms(const Camera& camera);
+  void setStepUniforms(const Camera& camera, double stepVoxels);
   void setBrickUniforms(const Brick& brick);
   void resizeTarget(ImageSize size);
-  void drawPixels(const PixelRect& pixels, RankStatistics& statistics);
+  void drawPixels(const PixelRect& pixels, double stepVoxels, RankStatistics& statistics);
   void addCounters(RankStatistics& statistics);
 
   Scene scene_;
@@ -60,7 +69,8 @@ class Raycaster {
   RaycastOptions options_;
   std::vector<TransferTable> tables_;
   std::vector<Texture> transferTextures_;
-  GlProgram program_;
+  std::map<std::string, GlProgram> programs_;  ///< by their text
+  GlProgram* program_ = nullptr;               ///< the scene's
   VertexArray vertexArray_;
   Texture target_;
   Framebuffer framebuffer_;

@@ -16,7 +16,9 @@ namespace burin::node {
 struct ReferenceRenderer::State {
   State(const Scene& givenScene, BrickSource& source, const std::optional<double>& gradientScale);
 
-  Classified sampleAt(const glm::dvec3& index, const ReferenceView& view) const;
+  /// Of a segment, in index space.
+  Classified sampleOf(const glm::dvec3& begin, const glm::dvec3& end,
+                      const ReferenceView& view) const;
   glm::dvec4 trace(const ReferenceRay& ray, std::span<const ReferenceLight> lights) const;
 
   Scene scene;
@@ -35,14 +37,18 @@ ReferenceRenderer::State::State(const Scene& givenScene, BrickSource& source,
 }
 
 /// Layers are media in the same place: extinctions add, colours mix by extinction.
-Classified ReferenceRenderer::State::sampleAt(const glm::dvec3& index,
+Classified ReferenceRenderer::State::sampleOf(const glm::dvec3& begin, const glm::dvec3& end,
                                               const ReferenceView& view) const {
   Classified mixture{.colour = glm::dvec3{0}, .extinction = 0};
+  const glm::dvec3 index = (begin + end) / 2.0;
   const auto value = volume.valueAt(index);
   if (!value) return mixture;
+  const bool preintegrated = scene.quality.preintegrated;
+  const double front = preintegrated ? volume.valueAt(begin).value_or(*value) : *value;
+  const double back = preintegrated ? volume.valueAt(end).value_or(*value) : *value;
   std::optional<glm::dvec3> gradient;  // of the volume: the same for all layers
   for (const ReferenceLayer& layer : layers) {
-    const Classified plain = layer.classify(*value);
+    const Classified plain = preintegrated ? layer.classify(front, back) : layer.classify(*value);
     // No style adds extinction where the transfer function gives none.
     if (plain.extinction <= 0) continue;
     if (layer.needsGradient() && !gradient) gradient = volume.gradientAt(index);
@@ -70,7 +76,8 @@ glm::dvec4 ReferenceRenderer::State::trace(const ReferenceRay& ray,
     const double begin = std::max(static_cast<double>(k) * stepWorld, visible->near);
     const double end = std::min(static_cast<double>(k + 1) * stepWorld, visible->far);
     if (!(begin < end)) continue;
-    const Classified sample = sampleAt(originIndex + (begin + end) / 2 * directionIndex, view);
+    const Classified sample =
+        sampleOf(originIndex + begin * directionIndex, originIndex + end * directionIndex, view);
     if (sample.extinction <= 0) continue;
     const double alpha = -std::expm1(-sample.extinction * (end - begin) * worldPerDepth);
     colour += (1 - opacity) * alpha * sample.colour;

@@ -26,9 +26,9 @@ glm::dvec3 unitOrZero(const glm::dvec3& v) {
 }  // namespace
 
 ReferenceLayer::ReferenceLayer(const Layer& layer, ReferenceGradientScale& scale)
-    : transferFunction_{layer.transferFunction} {
-  BURIN_CHECK(transferFunction_.opacityUnitLength.has_value());
-  unitLength_ = *transferFunction_.opacityUnitLength;
+    : transferFunction_{layer.transferFunction},
+      unitLength_{transferFunction_.opacityUnitLength.value()},
+      means_{transferFunction_, unitLength_} {
   if (const auto* s = layer.style("surface")) surface_ = Surface{s->curve("opacity")};
   if (const auto* s = layer.style("light"))
     light_ = Lit{s->number("ambient"), s->number("diffuse"), s->number("normal_color")};
@@ -60,6 +60,10 @@ void ReferenceLayer::readGradientSettings(const Layer& layer, ReferenceGradientS
 
 Classified ReferenceLayer::classify(double value) const {
   return transferFunction_.classify(value, unitLength_);
+}
+
+Classified ReferenceLayer::classify(double front, double back) const {
+  return means_.between(front, back);
 }
 
 Classified ReferenceLayer::shade(const Classified& plain, const glm::dvec3& gradient,

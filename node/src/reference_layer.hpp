@@ -7,6 +7,7 @@
 
 #include "burin/common/scene.hpp"
 #include "reference_gradient_scale.hpp"
+#include "reference_mean_class.hpp"
 
 namespace burin::node {
 
@@ -29,8 +30,9 @@ class ReferenceLayer {
 
   bool needsGradient() const { return surface_ || light_ || tone_ || edges_ || specular_; }
 
-  /// The transfer function alone.
+  /// The transfer function alone: of one value, or the mean over the values between two.
   Classified classify(double value) const;
+  Classified classify(double front, double back) const;
 
   /// What the styles make of it; `gradient` in world units, ignored if none needs it.
   Classified shade(const Classified& plain, const glm::dvec3& gradient,
@@ -72,7 +74,8 @@ class ReferenceLayer {
   enum class Orientation { kOutward, kInward, kFacing };
 
   TransferFunction transferFunction_;
-  double unitLength_ = 1;
+  double unitLength_;
+  ReferenceMeanClass means_;
   double noiseFloor_ = 0;
   double gradientScale_ = 0;
   Orientation orientation_ = Orientation::kOutward;

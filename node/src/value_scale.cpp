@@ -15,7 +15,7 @@ ValueScale valueScaleOf(VoxelType type, const VolumeSurvey& survey) {
     case VoxelType::kF32:
       break;
   }
-  return {survey.lowest, range, survey.nanCount > 0, highest};
+  return {survey.lowest, range, survey.nanCount > 0, highest, span > 0 ? 1.0 : 0.0};
 }
 
 }  // namespace burin::node

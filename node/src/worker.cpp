@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "brick.hpp"
+#include "burin/common/error.hpp"
 #include "burin/node/offscreen_context.hpp"
 #include "burin/node/thread_share.hpp"
 #include "cost_estimate.hpp"
@@ -34,6 +36,19 @@ BrickTree partition(const Communicator& comm, const Scene& scene, const VolumeIn
   return BrickTree::build(request);
 }
 
+/// Cost of the owner that has most, over the mean of all.
+double unevenness(const BrickTree& tree, const CostEstimate& cost) {
+  double sum = 0;
+  double largest = 0;
+  for (int owner = 0; owner < tree.ownerCount(); ++owner) {
+    double share = 0;
+    for (const BrickId brick : tree.bricksOf(owner)) share += cost(tree.brickCells(brick));
+    sum += share;
+    largest = std::max(largest, share);
+  }
+  return sum > 0 ? largest * tree.ownerCount() / sum : 1;
+}
+
 /// Collective. Voxels straight into textures; what is staged is a few times kSlabBytes.
 void loadBricks(const Communicator& comm, BrickSource& source, std::span<const IndexBox> boxes,
                 std::span<Brick> bricks) {
@@ -48,61 +63,114 @@ void loadBricks(const Communicator& comm, BrickSource& source, std::span<const I
 }  // namespace
 
 struct Worker::State {
+  const Communicator& comm;
+  BrickSource& source;
   Scene scene;
   WorkerOptions options;
   Rank firstOwner{0};  ///< rank of owner 0
   VolumeSurvey survey;
+  bool hasGradients = false;  ///< the survey's
   BrickTree tree;
+  int ghosts = 0;                           ///< of the bricks loaded
   std::optional<OffscreenContext> context;  ///< before everything that holds GL names
   std::optional<Raycaster> raycaster;
   std::vector<Brick> bricks;
+
+  State(const Communicator& givenComm, BrickSource& givenSource, const Scene& givenScene,
+        const WorkerOptions& givenOptions)
+      : comm{givenComm},
+        source{givenSource},
+        scene{givenScene},
+        options{givenOptions},
+        firstOwner{givenOptions.dedicatedHost ? 1 : 0} {}
 
   /// The brick of this rank with that id, or nullptr.
   const Brick* find(BrickId id) const {
     const auto found = std::ranges::find(bricks, id, &Brick::id);
     return found == bricks.end() ? nullptr : &*found;
   }
+
+  bool isSplitBadly(const Scene& next) const;
+  void load();
+  void classify();
 };
+
+/// Whether loading bricks anew is worth it: the split leaves one owner twice the mean cost of that
+/// scene, and a new one would take a quarter off that. The same answer on every rank.
+bool Worker::State::isSplitBadly(const Scene& next) const {
+  const VolumeInfo& volume = source.info();
+  const CostEstimate cost{survey.blocks, volume.grid, next};
+  const double now = unevenness(tree, cost);
+  return now > 2 && unevenness(partition(comm, next, volume, survey, options), cost) < 0.75 * now;
+}
+
+/// Collective. Splits the volume for the scene and loads this rank's bricks.
+void Worker::State::load() {
+  const VolumeInfo& volume = source.info();
+  if (const bool needed = gradientNeeded(scene);
+      survey.blocks.lowest.empty() || needed > hasGradients) {
+    survey = surveyVolume(comm, source, needed);
+    hasGradients = needed;
+  }
+  tree = partition(comm, scene, volume, survey, options);
+  ghosts = ghostLayers(scene, options);
+  const int owner = static_cast<int>(comm.rank()) - static_cast<int>(firstOwner);
+  const std::vector<BrickId> mine =
+      owner >= 0 && owner < tree.ownerCount() ? tree.bricksOf(owner) : std::vector<BrickId>{};
+  const int threads = threadShare(comm, !mine.empty());
+  const ValueScale scale = valueScaleOf(volume.type, survey);
+  std::vector<IndexBox> boxes;
+  collectively(comm, "preparing to draw", [&] {
+    bricks.clear();
+    raycaster.reset();
+    if (mine.empty()) return;  // an idle rank needs no OpenGL
+    if (!context) context.emplace(ContextOptions{threads});
+    context->makeCurrent();
+    raycaster.emplace(scene, volume.grid, scale,
+                      Raycaster::GradientScales{survey.gradient999, survey.largestGradient},
+                      RaycastOptions{options.skip, options.countSamples});
+    for (const BrickId id : mine) {
+      bricks.emplace_back(id, tree.brickCells(id), ghosts, volume, scale);
+      boxes.push_back(bricks.back().storedVoxels());
+    }
+  });
+  loadBricks(comm, source, boxes, bricks);
+  collectively(comm, "classifying bricks", [&] {
+    for (Brick& brick : bricks) brick.finishLoading();
+    classify();
+  });
+}
+
+/// Local. What the scene can show of each brick.
+void Worker::State::classify() {
+  if (bricks.empty()) return;
+  const VisibleValues visible{scene, raycaster->transferTables(),
+                              valueScaleOf(source.info().type, survey)};
+  for (Brick& brick : bricks) brick.classify(visible);
+}
 
 Worker::Worker(const Communicator& comm, const Scene& scene, BrickSource& source,
                const WorkerOptions& options)
-    : state_{std::make_unique<State>()} {
+    : state_{std::make_unique<State>(comm, source, scene, options)} {
+  state_->load();
+}
+
+void Worker::update(const Scene& scene) {
   State& state = *state_;
-  const VolumeInfo& volume = source.info();
-  state.scene = scene;
-  state.options = options;
-  state.firstOwner = Rank{options.dedicatedHost ? 1 : 0};
-  state.survey = surveyVolume(comm, source, gradientNeeded(scene));
-  state.tree = partition(comm, scene, volume, state.survey, options);
-  const int owner = static_cast<int>(comm.rank()) - static_cast<int>(state.firstOwner);
-  const std::vector<BrickId> mine = owner >= 0 && owner < state.tree.ownerCount()
-                                        ? state.tree.bricksOf(owner)
-                                        : std::vector<BrickId>{};
-  const int threads = threadShare(comm, !mine.empty());
-  const ValueScale scale = valueScaleOf(volume.type, state.survey);
-
-  const int ghosts = ghostLayers(scene, options);
-
-  std::vector<IndexBox> boxes;
-  collectively(comm, "preparing to draw", [&] {
-    if (mine.empty()) return;  // an idle rank needs no OpenGL
-    state.context.emplace(ContextOptions{threads});
-    state.raycaster.emplace(
-        scene, volume.grid, scale,
-        Raycaster::GradientScales{state.survey.gradient999, state.survey.largestGradient},
-        RaycastOptions{options.skip, options.countSamples});
-    for (const BrickId id : mine) {
-      state.bricks.emplace_back(id, state.tree.brickCells(id), ghosts, volume, scale);
-      boxes.push_back(state.bricks.back().storedVoxels());
-    }
+  const bool mustLoad = ghostLayers(scene, state.options) > state.ghosts ||
+                        (gradientNeeded(scene) && !state.hasGradients) || state.isSplitBadly(scene);
+  const bool sameValues = std::ranges::equal(state.scene.layers, scene.layers, {},
+                                             &Layer::transferFunction, &Layer::transferFunction);
+  const Scene before = std::exchange(state.scene, scene);
+  if (mustLoad) return state.load();
+  Outcome outcome = attempt([&] {
+    if (!state.raycaster) return;
+    state.context->makeCurrent();
+    state.raycaster->setScene(scene);
+    if (!sameValues) state.classify();
   });
-  loadBricks(comm, source, boxes, state.bricks);
-  collectively(comm, "classifying bricks", [&] {
-    for (Brick& brick : state.bricks) {
-      brick.finishLoading();
-      brick.classify(scene, state.raycaster->transferTables(), scale);
-    }
-  });
+  if (outcome.failed) state.scene = before;
+  agree(state.comm, "changing the scene", std::move(outcome));
 }
 
 Worker::~Worker() {
@@ -134,17 +202,33 @@ compositor::Subimage<Rgba> Worker::draw(const Camera& camera, RankStatistics& st
 }
 
 compositor::SubimageView<Rgba> Worker::draw(const Camera& camera, RankStatistics& statistics,
-                                            const PixelRoom& room) {
-  const State& state = *state_;
-  statistics.bricks = static_cast<std::int32_t>(state.bricks.size());
-  for (const Brick& brick : state.bricks)
-    statistics.residentVoxelBytes += static_cast<std::int64_t>(brick.residentBytes());
+                                            const PixelRoom& room, const StepMap* steps) {
+  std::vector<const Brick*> bricks;
+  if (!state_->bricks.empty()) {
+    for (const BrickId id : state_->tree.visibilityOrder(camera))
+      if (const Brick* brick = state_->find(id)) bricks.push_back(brick);
+  }
+  return drawThese(bricks, camera, statistics, room, steps);
+}
+
+compositor::SubimageView<Rgba> Worker::drawBrick(BrickId brick, const Camera& camera,
+                                                 RankStatistics& statistics,
+                                                 const PixelRoom& room) {
+  const Brick* const found = state_->find(brick);
+  BURIN_CHECK(found != nullptr);
+  return drawThese(std::span{&found, 1}, camera, statistics, room, nullptr);
+}
+
+/// `bricks`: front to back.
+compositor::SubimageView<Rgba> Worker::drawThese(std::span<const Brick* const> bricks,
+                                                 const Camera& camera, RankStatistics& statistics,
+                                                 const PixelRoom& room, const StepMap* steps) {
+  statistics.bricks = static_cast<std::int32_t>(bricks.size());
+  for (const Brick* brick : bricks)
+    statistics.residentVoxelBytes += static_cast<std::int64_t>(brick->residentBytes());
   if (!state_->raycaster) return {camera.image, {}, {}};
   state_->context->makeCurrent();
-  std::vector<const Brick*> bricks;
-  for (const BrickId id : state.tree.visibilityOrder(camera))
-    if (const Brick* brick = state.find(id)) bricks.push_back(brick);
-  return state_->raycaster->draw(camera, bricks, statistics, room);
+  return state_->raycaster->draw(camera, bricks, statistics, room, steps);
 }
 
 }  // namespace burin::node

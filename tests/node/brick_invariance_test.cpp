@@ -83,6 +83,33 @@ TEST_P(BrickInvariance, AnyNumberOfBricksDrawsTheSamePicture) {
   }
 }
 
+// over of n subimages in two groupings: 3(n - 1) roundings of 2^-24 each, twice; n = 5.
+TEST(BrickInvariance, BricksDrawnAloneMakeTheFrame) {
+  ArraySource source = smoothVolume(gridOf({40, 40, 40}));
+  const Scene scene = resolved(sceneWithStyle("light"), source);
+  const Camera camera = resolveCamera(scene, {source.info().grid, false});
+  const Communicator self{MPI_COMM_SELF};
+  node::Worker worker{self, scene, source, {.bricks = 5}};
+  RankStatistics statistics;
+  const Image<Rgba> all = wholeFrame(worker.draw(camera, statistics));
+  Image<Rgba> merged{camera.image};
+  for (const BrickId brick : worker.tree().visibilityOrder(camera)) {
+    compositor::Subimage<Rgba> alone{camera.image, {}, {}};
+    alone.active = worker
+                       .drawBrick(brick, camera, statistics,
+                                  [&](std::size_t pixels) {
+                                    alone.pixels.resize(pixels);
+                                    return std::span{alone.pixels};
+                                  })
+                       .active;
+    const Image<Rgba> behind = wholeFrame(alone);
+    for (std::size_t i = 0; i < behind.pixels().size(); ++i)
+      merged.pixels()[i] = over(merged.pixels()[i], behind.pixels()[i]);
+  }
+  EXPECT_GT(largestAlpha(all), 0.3);
+  EXPECT_LE(difference(all, merged).largest, 24 * 0x1p-24);
+}
+
 INSTANTIATE_TEST_SUITE_P(Styles, BrickInvariance, testing::ValuesIn(drawnStyles()),
                          [](const auto& style) { return style.param; });
 

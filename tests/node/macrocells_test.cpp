@@ -6,6 +6,8 @@
 #include <cmath>
 #include <random>
 
+#include "chessboard_distance.hpp"
+
 namespace burin::node {
 namespace {
 
@@ -55,8 +57,9 @@ TEST(Macrocells, DistancesAreChessboardDistancesToVisibleOnes) {
                               IndexBox{{8, 8, 8}, {9, 20, 13}}}) {
     const Values values = randomValues(box, 3);
     const Macrocells cells = macrocellsOf(values);
-    const auto distances = cells.distances([](float, float highest) { return highest > 0.5f; });
     const glm::ivec3 size = cells.size();
+    const auto distances = signedChessboardDistance(
+        cells.mark([](float, float highest) { return highest > 0.5f; }), size);
     ASSERT_EQ(distances.size(), static_cast<std::size_t>(size.x * size.y * size.z));
     std::vector<glm::ivec3> occupied;
     const auto forEach = [&](auto visit) {
@@ -70,14 +73,14 @@ TEST(Macrocells, DistancesAreChessboardDistancesToVisibleOnes) {
       if (hasHigh(values, cells.origin() + kMacrocellSize * c)) occupied.push_back(c);
     });
     forEach([&](glm::ivec3 c, int distance) {
-      int nearest = 255;
+      int nearest = kLargestDistance;
       for (const glm::ivec3& o : occupied) {
         const glm::ivec3 d = glm::abs(o - c);
         nearest = std::min(nearest, std::max({d.x, d.y, d.z}));
       }
       // Widening towards a neighbour's range may make a macrocell next to a visible one visible.
-      EXPECT_LE(distance, nearest);
-      EXPECT_GE(distance, std::min(nearest, 255) - 1);
+      EXPECT_LE(std::max(distance, 0), nearest);
+      EXPECT_GE(std::max(distance, 0), nearest - 1);
     });
   }
 }
@@ -94,7 +97,7 @@ TEST(Macrocells, WideningIsAFractionOfTheNeighboursRange) {
   const Macrocells cells = macrocellsOf(values);
   ASSERT_EQ(cells.size(), (glm::ivec3{3, 1, 1}));
   std::vector<std::pair<float, float>> ranges;
-  cells.distances([&](float lowest, float highest) {
+  cells.mark([&](float lowest, float highest) {
     ranges.emplace_back(lowest, highest);
     return true;
   });
@@ -115,7 +118,7 @@ TEST(Macrocells, SlabsInAnyCutGiveTheSameRanges) {
   }
   cut.finish();
   const auto high = [](float, float highest) { return highest > 0.5f; };
-  EXPECT_EQ(whole.distances(high), cut.distances(high));
+  EXPECT_EQ(whole.mark(high), cut.mark(high));
 }
 
 TEST(Macrocells, NanIsNothing) {
@@ -123,9 +126,9 @@ TEST(Macrocells, NanIsNothing) {
   Macrocells cells{box};
   cells.add(box, std::vector<float>(box.count(), std::nanf("")));
   cells.finish();
-  const auto distances = cells.distances([](float, float) { return true; });
-  EXPECT_THAT(distances, testing::Each(255));
-  EXPECT_TRUE(cells.visibleCells(distances).empty());
+  const auto marks = cells.mark([](float, float) { return true; });
+  EXPECT_THAT(marks, testing::Each(0));
+  EXPECT_TRUE(cells.boxOf(marks).empty());
 }
 
 }  // namespace

@@ -94,6 +94,28 @@ TEST(Skipping, SamplesOfAHomogeneousBoxAreCountedOnce) {
   }
 }
 
+TEST(Skipping, VoxelsOfTheValueWhereAFunctionBeginsAreEmpty) {
+  // A ball in zeros, opacity rising from 0 at 0: most of the box shows nothing.
+  ArraySource source{gridOf({48, 48, 48}), [](glm::ivec3 i) {
+                       const double r = glm::distance(glm::dvec3{i}, glm::dvec3{24});
+                       return static_cast<float>(std::clamp(6 - r, 0.0, 1.0));
+                     }};
+  for (const bool preintegrated : {true, false}) {
+    Scene scene = sceneWithStyle("plain");
+    scene.layers[0].transferFunction = {{{0, {255, 0, 0}, 0}, {1, {255, 0, 0}, 0.5}}, {}};
+    scene.quality.preintegrated = preintegrated;
+    scene = resolved(scene, source);
+    const Camera camera = resolveCamera(scene, {source.info().grid, false});
+    RankStatistics on, off;
+    const auto skipped = drawAlone(scene, source, camera, {.countSamples = true}, &on);
+    const auto visited =
+        drawAlone(scene, source, camera, {.skip = false, .countSamples = true}, &off);
+    EXPECT_TRUE(std::ranges::equal(skipped.pixels(), visited.pixels()));
+    // The macrocells around the ball hold 20³ of the 47³ cells.
+    EXPECT_LT(on.samplesVisited, off.samplesVisited / 5);
+  }
+}
+
 TEST(Skipping, AnEmptySceneDrawsNothing) {
   ArraySource source = smoothVolume(gridOf({20, 20, 20}));
   Scene scene = sceneWithStyle("plain");

@@ -66,6 +66,48 @@ TEST(TransferTable, NearlyOpaqueRampsStayFinite) {
   EXPECT_LE(largestOpacityError(function, 1, 0, 1), 1.0 / 16384 + 1e-4);
 }
 
+TEST(TransferTable, AStepAtTheFirstPointHasItsFootInTheTable) {
+  const TransferFunction step{{{4, {}, 0.1}, {4, {}, 0.7}, {9, {}, 0}}, {}};
+  const TransferTable table = makeTransferTable(step, 1, 0, 10);
+  EXPECT_NEAR(extinctionAt(table, 4 - 1.01 * table.binWidth()), extinctionFromOpacity(0.1, 1),
+              1e-6);
+  EXPECT_NEAR(extinctionAt(table, 4), extinctionFromOpacity(0.7, 1), 1e-6);
+}
+
+/// Of the rows, between the table's ends, in units of value.
+glm::dvec4 integralOfRows(const TransferTable& table) {
+  const TransferRows rows = transferRows(table);
+  EXPECT_EQ(rows.extinction.size(), table.entries.size() + 1);
+  const glm::vec4 end = rows.extinction.back();
+  return table.binWidth() *
+         glm::dvec4{glm::dvec3{rows.colour.back()}, double{end.x} + double{end.y}};
+}
+
+TEST(TransferTable, RowsMissNothing) {
+  // Two spikes, each narrower than a bin, without common grid: the integral of -ln(1 - o) over a
+  // triangle of height o and half width w is 2 w ((1 - o) ln(1 - o) + o) / o.
+  const double second = 0.1 * std::sqrt(50);
+  const auto function = [&](double w) {
+    return TransferFunction{{{0.2 - w, {}, 0},
+                             {0.2, {255, 255, 255}, 0.9},
+                             {0.2 + w, {}, 0},
+                             {second - w, {}, 0},
+                             {second, {255, 255, 255}, 0.9},
+                             {second + w, {}, 0}},
+                            {}};
+  };
+  for (const double w : {1e-2, 1e-4, 1e-5, 1e-7}) {
+    const double expected = 2 * 2 * w * (0.1 * std::log(0.1) + 0.9) / 0.9;
+    const glm::dvec4 rows = integralOfRows(makeTransferTable(function(w), 1, 0, 1));
+    EXPECT_NEAR(rows.a / expected, 1, 1e-9) << w;
+    // White at the peak, where extinction is: with q = 1 - opacity the colour is (1 - q) / 0.9, the
+    // integral over the same ((q²/4 - q²/2 ln q) at 1 - at 0.1), which is 0.25 - 0.0140129.
+    const double first = 0.1 * std::log(0.1) + 0.9;
+    const double colour = 4 * w * (first - (0.2475 + 0.005 * std::log(0.1))) / (0.9 * 0.9);
+    EXPECT_NEAR(rows.r / colour, 1, 1e-6) << w;
+  }
+}
+
 TEST(TransferTable, ConstantAndStepFunctions) {
   const TransferFunction constant{{{5, {}, 0.25}}, {}};
   EXPECT_LE(largestOpacityError(constant, 1, 0, 10), 1e-7);

@@ -14,7 +14,8 @@ namespace burin::node {
 ///
 /// A ray is eye + depth * direction(pixel), the direction scaled to depth 1. Its segments are
 /// [k, k+1] * step in depth, k any integer, clipped to the volume's box and the clip planes and
-/// sampled at their middle (design, "The sample lattice is global and planar").
+/// sampled at their middle (design, "The sample lattice is global and planar"); with
+/// quality.preintegrated their classes are means over the values between their ends'.
 class ReferenceRenderer {
  public:
   /// Loads all voxels. `scene` must be resolved (opacity unit lengths set).

@@ -12,9 +12,12 @@
 #include "burin/common/statistics.hpp"
 #include "burin/compositor/subimage.hpp"
 #include "burin/node/brick_source.hpp"
+#include "burin/node/step_map.hpp"
 #include "burin/node/survey.hpp"
 
 namespace burin::node {
+
+class Brick;
 
 struct WorkerOptions {
   int bricks = 0;    ///< bricks in all; 0: one per rank that renders
@@ -34,6 +37,14 @@ class Worker {
          const WorkerOptions& options);
   ~Worker();
 
+  /// Collective. Draws this scene from now on, doing only what the change needs: values alone are
+  /// uniforms; a transfer function is a new table and new occupancy; other styles are a program;
+  /// more ghost layers, the first use of gradients or a split that has become bad mean
+  /// that bricks are loaded again. `scene` must be resolved and of the same volume; the
+  /// communicator and the source given at the start must still be there. Throws CollectiveError;
+  /// the worker then draws what it drew before, or nothing if bricks were being loaded.
+  void update(const Scene& scene);
+
   const VolumeSurvey& survey() const;
   const BrickTree& tree() const;
 
@@ -44,13 +55,24 @@ class Worker {
   using PixelRoom = std::function<std::span<Rgba>(std::size_t pixels)>;
 
   /// Local. Draws this rank's bricks into one subimage (empty active rectangle if nothing is
-  /// visible) and adds to the statistics. Throws Error{kRank} if GL fails.
+  /// visible) and adds to the statistics. `steps` replaces the scene's step if given; its largest
+  /// must be covered by the ghost layers that the scene asked for. Throws Error{kRank} if GL fails.
   compositor::SubimageView<Rgba> draw(const Camera& camera, RankStatistics& statistics,
-                                      const PixelRoom& room);
+                                      const PixelRoom& room, const StepMap* steps = nullptr);
   /// The same, into memory of its own.
   compositor::Subimage<Rgba> draw(const Camera& camera, RankStatistics& statistics);
 
+  /// Local. Draws one of this rank's bricks and nothing else: what a rank that owned just that one
+  /// would draw. For measuring the parts of many ranks on one. Throws std::logic_error if this rank
+  /// has no such brick, Error{kRank} if GL fails.
+  compositor::SubimageView<Rgba> drawBrick(BrickId brick, const Camera& camera,
+                                           RankStatistics& statistics, const PixelRoom& room);
+
  private:
+  compositor::SubimageView<Rgba> drawThese(std::span<const Brick* const> bricks,
+                                           const Camera& camera, RankStatistics& statistics,
+                                           const PixelRoom& room, const StepMap* steps);
+
   struct State;
   std::unique_ptr<State> state_;
 };

@@ -1,0 +1,64 @@
+#include "visible_values.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace burin::node {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// Of a stored value, relative: filtering equal texels, and where the table begins in a float.
+constexpr double kRounding = 1e-6;
+
+/// The next float downwards, or upwards, so that rounding never narrows an interval.
+float below(double x) {
+  if (x == 0) return 0;
+  return std::nextafter(static_cast<float>(x), -std::numeric_limits<float>::infinity());
+}
+float above(double x) {
+  if (x == 0) return 0;
+  return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::infinity());
+}
+
+}  // namespace
+
+VisibleValues::VisibleValues(const Scene& scene, std::span<const TransferTable> tables,
+                             const ValueScale& scale) {
+  for (std::size_t i = 0; i < tables.size(); ++i) {
+    const auto& points = scene.layers[i].transferFunction.points;
+    const TransferTable& table = tables[i];
+    const double bin = table.binWidth();
+    // Before its first and after its last visible bin the program says exactly 0, so that volumes
+    // full of the very value where a function begins are not all visible; there only the rounding
+    // of that value counts. Between, a look-up may round into the next bin.
+    const glm::dvec2 bins = table.visibleBins();
+    if (bins.x == bins.y) continue;
+    double first = scale.stored(table.first + bins.x * bin);
+    double last = scale.stored(table.first + bins.y * bin);
+    first -= std::isfinite(first) ? kRounding * std::abs(first) : 0;
+    last += std::isfinite(last) ? kRounding * std::abs(last) : 0;
+    const auto show = [&](double lowest, double highest) {
+      lowest = std::max(scale.stored(lowest - bin), first);
+      highest = std::min(scale.stored(highest + bin), last);
+      if (lowest < highest) intervals_.push_back({below(lowest), above(highest)});
+    };
+    // Opacity is linear between points, so it is above 0 between two of which one's is.
+    if (points.front().opacity > 0) show(-kInfinity, points.front().value);
+    for (std::size_t k = 0; k + 1 < points.size(); ++k)
+      if (points[k].opacity > 0 || points[k + 1].opacity > 0)
+        show(points[k].value, points[k + 1].value);
+    if (points.back().opacity > 0) show(points.back().value, kInfinity);
+  }
+  std::ranges::sort(intervals_, {}, &Interval::lowest);
+  std::vector<Interval> merged;
+  for (const Interval& interval : intervals_) {
+    if (!merged.empty() && interval.lowest <= merged.back().highest)
+      merged.back().highest = std::max(merged.back().highest, interval.highest);
+    else
+      merged.push_back(interval);
+  }
+  intervals_ = std::move(merged);
+}
+
+}  // namespace burin::node

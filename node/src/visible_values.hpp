@@ -1,0 +1,35 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "burin/common/scene.hpp"
+#include "transfer_table.hpp"
+#include "value_scale.hpp"
+
+namespace burin::node {
+
+/// Which stored values any layer of a scene shows: disjoint intervals, so that asking about a range
+/// of values takes no look at the transfer functions' points. Open at ends where the function is 0;
+/// widened elsewhere by one bin of the layer's table, whose look-up may round into the next one.
+class VisibleValues {
+ public:
+  /// `tables`: one per layer of the scene.
+  VisibleValues(const Scene& scene, std::span<const TransferTable> tables, const ValueScale& scale);
+
+  /// Whether a value of [lowest, highest] may be seen; stored values.
+  bool any(float lowest, float highest) const {
+    for (const Interval& interval : intervals_)
+      if (lowest < interval.highest && highest > interval.lowest) return true;
+    return false;
+  }
+
+ private:
+  struct Interval {
+    float lowest, highest;
+  };
+
+  std::vector<Interval> intervals_;  ///< ascending
+};
+
+}  // namespace burin::node

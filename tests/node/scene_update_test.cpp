@@ -1,0 +1,107 @@
+// A worker that was told to draw another scene draws what a new one would, bit for bit.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "support/drawing.hpp"
+#include "support/scenes.hpp"
+
+namespace burin::test {
+namespace {
+
+/// One random change of those a user makes.
+void edit(Scene& scene, std::mt19937& random) {
+  const auto pick = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+  TransferFunction& function = scene.layers[0].transferFunction;
+  switch (pick(7)) {
+    case 0:
+      function.points[static_cast<std::size_t>(pick(4))].opacity = 0.1 * pick(6);
+      break;
+    case 1:
+      function.points[0].value = 0.05 * pick(8);
+      break;
+    case 2:
+      scene.layers[0].styles =
+          sceneWithStyle(drawnStyles()[static_cast<std::size_t>(pick(6))]).layers[0].styles;
+      break;
+    case 3:
+      scene.quality.stepVoxels = 0.5 + 0.75 * pick(4);
+      break;
+    case 4:
+      scene.quality.preintegrated = pick(2) == 0;
+      break;
+    case 5:
+      scene.clip.clear();
+      if (pick(2) == 0) scene.clip.push_back({{1, 0.3, 0.2}, -5.0 * pick(4)});
+      break;
+    default:
+      if (scene.layers.size() > 1)
+        scene.layers.pop_back();
+      else
+        scene.layers.push_back(sceneWithStyle("tone").layers[0]);
+  }
+}
+
+TEST(SceneUpdate, AfterAnyEditsThePictureIsThatOfANewWorker) {
+  std::mt19937 random{5};
+  ArraySource source = smoothVolume(gridOf({30, 37, 26}, {1, 1.2, 0.9}));
+  Scene scene = resolved(sceneWithStyle("light"), source);
+  const Communicator self{MPI_COMM_SELF};
+  for (const bool skip : {true, false}) {
+    const node::WorkerOptions options{.bricks = 3, .skip = skip};
+    node::Worker worker{self, scene, source, options};
+    for (int i = 0; i < 25; ++i) {
+      edit(scene, random);
+      scene = resolved(scene, source);
+      worker.update(scene);
+      const Camera camera = resolveCamera(scene, {source.info().grid, false});
+      RankStatistics statistics;
+      const Image<Rgba> updated = wholeFrame(worker.draw(camera, statistics));
+      EXPECT_TRUE(std::ranges::equal(
+          updated.pixels(), drawAlone(scene, source, camera, {.bricks = 3, .skip = true}).pixels()))
+          << "edit " << i << (skip ? ", skipping" : ", not skipping");
+    }
+  }
+}
+
+TEST(SceneUpdate, TilesWithStepsOfTheirOwnAreTheTilesOfWholeFrames) {
+  ArraySource source = smoothVolume(gridOf({30, 37, 26}));
+  Scene scene = sceneWithStyle("all");
+  scene.quality.stepVoxels = 2;
+  scene = resolved(scene, source);
+  const Camera camera = resolveCamera(scene, {source.info().grid, false});
+  const Communicator self{MPI_COMM_SELF};
+  node::Worker worker{self, scene, source, {.bricks = 2}};
+  const auto draw = [&](const node::StepMap& steps) {
+    std::vector<Rgba> pixels;
+    RankStatistics statistics;
+    const auto view = worker.draw(
+        camera, statistics,
+        [&](std::size_t count) {
+          pixels.resize(count);
+          return std::span{pixels};
+        },
+        &steps);
+    return wholeFrame({view.frame, view.active, pixels});
+  };
+  constexpr int kSide = 16;
+  const Image<Rgba> coarse = draw({camera.image, kSide, 2});
+  const Image<Rgba> fine = draw({camera.image, kSide, 0.5});
+  node::StepMap mixed{camera.image, kSide, 2};
+  for (int row = 0; row < mixed.rows(); ++row)
+    for (int column = 0; column < mixed.columns; ++column)
+      if ((row + column) % 3 == 0) mixed.at(column, row) = 0.5;
+  mixed.at(2, 1) = 0;
+  const Image<Rgba> both = draw(mixed);
+  for (int y = 0; y < camera.image.height; ++y)
+    for (int x = 0; x < camera.image.width; ++x) {
+      const double step = mixed.at(x / kSide, y / kSide);
+      const Rgba expected = step == 0 ? Rgba{} : (step == 2 ? coarse : fine).at(x, y);
+      EXPECT_EQ(both.at(x, y), expected) << x << " " << y;
+    }
+}
+
+}  // namespace
+}  // namespace burin::test
