@@ -6,9 +6,11 @@
 #include "bench/compositing_measurement.hpp"
 #include "bench/compositing_plots.hpp"
 #include "bench/compositing_table.hpp"
+#include "bench/first_ranks.hpp"
 #include "bench/frame_model.hpp"
 #include "bench/gnuplot.hpp"
 #include "bench/link_parameters.hpp"
+#include "bench/output_folder.hpp"
 #include "bench/scaling_model.hpp"
 #include "burin/common/error.hpp"
 #include "burin/common/log.hpp"
@@ -28,17 +30,6 @@ constexpr int kDiscSide = 1024;
 
 /// Beyond this a contender's frame is wrong; float `over` of a few dozen ranks stays below 1e-5.
 constexpr double kWrong = 1e-4;
-
-/// The first `ranks` ranks of `comm`; nullopt on the others. Collective over `comm`.
-std::optional<Communicator> firstRanks(const Communicator& comm, int ranks) {
-  const int colour = static_cast<int>(comm.rank()) < ranks ? 0 : MPI_UNDEFINED;
-  MPI_Comm part = MPI_COMM_NULL;
-  checkMpi(MPI_Comm_split(comm.get(), colour, 0, &part), "MPI_Comm_split");
-  if (part == MPI_COMM_NULL) return std::nullopt;
-  Communicator first{part};
-  checkMpi(MPI_Comm_free(&part), "MPI_Comm_free");
-  return first;
-}
 
 /// "shm" if all ranks share memory. Collective.
 std::string networkName(const Communicator& comm, const BenchCompositingOptions& options) {
@@ -134,13 +125,6 @@ void write(const BenchCompositingOptions& options, const Results& results,
   note("{}: {} measurements", (folder / "compositing.csv").string(), rows.size());
 }
 
-void createFolder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) fail(ExitCode::kUsage, "--out {}: {}", folder.string(), error.message());
-  checkWritable(folder / "compositing.csv");
-}
-
 /// Collective over `part`. What all its ranks throw alike becomes an outcome, for the ranks outside
 /// to learn of; what one rank throws alone ends the job, as the others of `part` wait for it.
 Outcome measureOn(const Communicator& part, const BenchCompositingOptions& options,
@@ -162,7 +146,7 @@ Outcome measureOn(const Communicator& part, const BenchCompositingOptions& optio
 }  // namespace
 
 int runBenchCompositing(const Communicator& comm, const BenchCompositingOptions& options) {
-  onRoot(comm, [&] { createFolder(options.folder); });
+  onRoot(comm, [&] { createOutputFolder(options.folder, "compositing.csv"); });
   RenderOptions what;
   what.input = options.input;
   what.volume = options.volume;

@@ -148,12 +148,16 @@ void checkOutput(const std::filesystem::path& output) {
     fail(ExitCode::kUsage, "-o {}: expected a name that ends in .png or .exr", output.string());
 }
 
+/// "--volume" beside a volume would leave open which of them is meant.
+void checkVolumeChoice(const std::string& input, const std::string& volume) {
+  if (!input.empty() && !volume.empty() && !isSceneFile(input))
+    fail(ExitCode::kUsage, "--volume goes with a scene (a .json file), not with volume {}", input);
+}
+
 RenderOptions finished(RenderOptions options, const RenderText& text, int ranks) {
   if (options.input.empty() && options.volume.empty())
     fail(ExitCode::kUsage, "render: expected a SCENE or a VOLUME");
-  if (!options.input.empty() && !options.volume.empty() && !isSceneFile(options.input))
-    fail(ExitCode::kUsage, "--volume goes with a scene (a .json file), not with volume {}",
-         options.input);
+  checkVolumeChoice(options.input, options.volume);
   if (!std::isfinite(options.orbitDeg))
     fail(ExitCode::kUsage, "--orbit {}: expected degrees", options.orbitDeg);
   if (options.worker.dedicatedHost && ranks == 1)
@@ -186,13 +190,19 @@ void describeMakeVolume(CLI::App& app, MakeVolumeOptions& options, MakeText& tex
   app.footer(makeVolumeFooter());
 }
 
-BenchText describeBenchCompositing(CLI::App& app, BenchCompositingOptions& options) {
-  BenchText text;
+/// What all benchmarks take.
+template <typename Options>
+void addBenchOptions(CLI::App& app, Options& options) {
   app.add_option("INPUT", options.input, "A scene (.json) or a volume")->type_name("FILE");
   app.add_option("--volume", options.volume, "Draw this volume, whatever the scene names")
       ->type_name("FILE");
   app.add_option("--out", options.folder, "Where the table and the plots go (bench)")
       ->type_name("DIR");
+}
+
+BenchText describeBenchCompositing(CLI::App& app, BenchCompositingOptions& options) {
+  BenchText text;
+  addBenchOptions(app, options);
   app.add_flag("--quick", options.quick, "512x512 and 3 repeats, no discs");
   app.add_option("--ranks", options.ranks, "Rank counts (2 to 8, and all)")
       ->type_name("N,N,…")
@@ -215,18 +225,100 @@ BenchText describeBenchCompositing(CLI::App& app, BenchCompositingOptions& optio
   return text;
 }
 
+/// Returns --size.
+CLI::Option* describeBenchScaling(CLI::App& app, BenchScalingOptions& options) {
+  addBenchOptions(app, options);
+  app.add_flag("--quick", options.quick, "64x64x64 voxels, up to 32 ranks");
+  app.add_option("--bricks", options.bricks,
+                 "Numbers of ranks whose bricks are drawn one by one (1,2,4,…,256)")
+      ->type_name("N,N,…")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::Range(1, 4096));
+  app.add_option("--repeats", options.repeats, "Times of which the median is taken (3)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 10'000));
+  app.footer(benchScalingFooter());
+  return app
+      .add_option("--size", options.side,
+                  "Voxels along each axis of the built-in volume (256); twice as many for Lum and "
+                  "Ma's, a quarter for each rank of weak scaling")
+      ->type_name("N")
+      ->check(CLI::Range(16, 512));
+}
+
+/// Returns --size.
+CLI::Option* describeBenchSkip(CLI::App& app, BenchSkipOptions& options) {
+  addBenchOptions(app, options);
+  app.add_flag("--quick", options.quick, "96x96x96 voxels and fewer fractions");
+  app.add_option("--repeats", options.repeats, "Times of which the median is taken (5)")
+      ->type_name("N")
+      ->check(CLI::Range(5, 10'000));
+  app.footer(benchSkipFooter());
+  return app
+      .add_option(
+          "--size", options.side,
+          "Voxels along each axis of the built-in volumes (256); the frame is twice as wide")
+      ->type_name("N")
+      ->check(CLI::Range(16, 1024));
+}
+
+/// Returns --size.
+CLI::Option* describeBenchAccuracy(CLI::App& app, BenchAccuracyOptions& options) {
+  addBenchOptions(app, options);
+  app.add_flag("--quick", options.quick, "Frames of 96x96 pixels, a coarser reference");
+  app.add_option("--repeats", options.repeats, "Times of which the median is taken (5)")
+      ->type_name("N")
+      ->check(CLI::Range(5, 10'000));
+  app.footer(benchAccuracyFooter());
+  return app.add_option("--size", options.side, "Side of the square frames (256)")
+      ->type_name("N")
+      ->check(CLI::Range(1, kLargestImageSide));
+}
+
+BenchAccuracyOptions finished(BenchAccuracyOptions options, const CLI::Option& size) {
+  checkVolumeChoice(options.input, options.volume);
+  if (options.quick && size.empty()) options.side = 96;
+  return options;
+}
+
+/// INPUT and --volume, and that --size is not given beside them.
+template <typename Options>
+void checkBenchInput(const Options& options, const CLI::Option& size) {
+  checkVolumeChoice(options.input, options.volume);
+  const bool isBuiltIn = options.input.empty() && options.volume.empty();
+  if (!isBuiltIn && !size.empty())
+    fail(ExitCode::kUsage, "--size {} goes with the built-in volumes, not with a scene or volume",
+         options.side);
+}
+
+BenchSkipOptions finished(BenchSkipOptions options, const CLI::Option& size) {
+  checkBenchInput(options, size);
+  if (options.quick && size.empty()) options.side = 96;
+  return options;
+}
+
 void sortUnique(std::vector<int>& numbers) {
   std::ranges::sort(numbers);
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
+BenchScalingOptions finished(BenchScalingOptions options, const CLI::Option& size) {
+  checkBenchInput(options, size);
+  if (options.quick && size.empty()) options.side = 64;
+  if (options.bricks.empty()) {
+    for (int ranks = 1; ranks <= (options.quick ? 32 : 256); ranks *= 2)
+      options.bricks.push_back(ranks);
+  }
+  sortUnique(options.bricks);
+  return options;
 }
 
 BenchCompositingOptions finished(BenchCompositingOptions options, const BenchText& text,
                                  int ranks) {
   if (ranks < 2)
     fail(ExitCode::kUsage, "bench compositing needs two ranks or more, this run has one");
-  if (!options.input.empty() && !options.volume.empty() && !isSceneFile(options.input))
-    fail(ExitCode::kUsage, "--volume goes with a scene (a .json file), not with volume {}",
-         options.input);
+  checkVolumeChoice(options.input, options.volume);
   if (options.network.find_first_of(",\"\r\n") != std::string::npos)
     fail(ExitCode::kUsage, "--network {}: expected a name without commas, quotes or line ends",
          options.network);
@@ -345,6 +437,16 @@ Command parseCommandLine(std::span<const char* const> arguments, int ranks) {
   CLI::App& compositingApp =
       *benchApp.add_subcommand("compositing", "Merging subimages, against IceT");
   const BenchText benchText = describeBenchCompositing(compositingApp, compositing);
+  BenchAccuracyOptions accuracy;
+  CLI::App& accuracyApp = *benchApp.add_subcommand("accuracy", "Error against time and samples");
+  const CLI::Option* const accuracySize = describeBenchAccuracy(accuracyApp, accuracy);
+
+  BenchSkipOptions skip;
+  CLI::App& skipApp = *benchApp.add_subcommand("skip", "Skipping empty space, on and off");
+  const CLI::Option* const skipSize = describeBenchSkip(skipApp, skip);
+  BenchScalingOptions scaling;
+  CLI::App& scalingApp = *benchApp.add_subcommand("scaling", "Frames on ever more ranks");
+  const CLI::Option* const scalingSize = describeBenchScaling(scalingApp, scaling);
 
   try {
     app.parse(reversed(arguments));
@@ -358,6 +460,9 @@ Command parseCommandLine(std::span<const char* const> arguments, int ranks) {
   if (renderApp.parsed()) return finished(render, renderText, ranks);
   if (makeApp.parsed()) return finished(make, makeText);
   if (compositingApp.parsed()) return finished(compositing, benchText, ranks);
+  if (skipApp.parsed()) return finished(skip, *skipSize);
+  if (accuracyApp.parsed()) return finished(accuracy, *accuracySize);
+  if (scalingApp.parsed()) return finished(scaling, *scalingSize);
   if (stylesApp.parsed()) return StylesOptions{};
   info.raw = rawLayout(infoText);
   return info;

@@ -49,4 +49,34 @@ Start it with as many ranks as are to be measured: mpirun --bind-to none -n 8 bu
 `scripts/get-icet` fetches IceT; another one is found by BURIN_ICET_FOLDER=FOLDER.)";
 }
 
+std::string benchAccuracyFooter() {
+  return "Draws the built-in scenes (or INPUT) at fixed steps and for max_error settings, with "
+         "and\n"
+         "without pre-integration, in turns, and compares with the double-precision reference, "
+         "whose\n"
+         "own change on halving its step is shown. Writes accuracy.csv and accuracy.png (gnuplot:\n"
+         "error against time and samples, the Pareto front marked) to the folder.";
+}
+
+std::string benchSkipFooter() {
+  return R"(Draws one ball, 30 balls and vessels with empty-space skipping on and off, in turns with a volume
+in which everything is visible; or only INPUT, if it is given. Samples are counted in frames that
+are not timed. Writes skip.csv and a plot (gnuplot) to the folder, and prints how the targets fare.
+
+One rank is what it is meant for; on more the time is the slowest rank's.)";
+}
+
+std::string benchScalingFooter() {
+  return R"(Mode "isolated": rank 0 cuts the volume as for 1, 2, 4 … ranks and draws each rank's brick by itself
+with all threads; a frame is the slowest of them and what the cost model says of merging what they
+drew over a fast network. Mode "wall": whole frames on 1, 2, 4 … of the ranks that burin was started
+with, up to the cores there are.
+
+Strong scaling of one scene (INPUT if it is given); without INPUT also weak scaling, the volume growing
+with the ranks, and Lum and Ma's case: a volume of twice --size on 8 ranks and a host, with tone and
+edges in one layer and in two. Writes scaling.csv and a plot (gnuplot) to the folder.
+
+mpirun --bind-to none -n 2 burin bench scaling      with wall times on 1 and 2 ranks)";
+}
+
 }  // namespace burin::host

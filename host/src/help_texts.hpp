@@ -9,5 +9,8 @@ std::string programFooter();
 std::string renderFooter();
 std::string makeVolumeFooter();
 std::string benchCompositingFooter();
+std::string benchSkipFooter();
+std::string benchAccuracyFooter();
+std::string benchScalingFooter();
 
 }  // namespace burin::host

@@ -30,6 +30,15 @@ int runCommand(const Communicator& comm, const StylesOptions&) {
 int runCommand(const Communicator& comm, const BenchCompositingOptions& options) {
   return runBenchCompositing(comm, options);
 }
+int runCommand(const Communicator& comm, const BenchAccuracyOptions& options) {
+  return runBenchAccuracy(comm, options);
+}
+int runCommand(const Communicator& comm, const BenchSkipOptions& options) {
+  return runBenchSkip(comm, options);
+}
+int runCommand(const Communicator& comm, const BenchScalingOptions& options) {
+  return runBenchScaling(comm, options);
+}
 int runCommand(const Communicator& comm, const Answer& answer) {
   if (comm.isRoot()) std::fputs(answer.text.c_str(), stdout);
   return 0;

@@ -70,12 +70,122 @@ TEST(BenchCompositing, WritesATableOfRightFrames) {
   EXPECT_THAT(run.out, HasSubstr("3 ranks"));
 }
 
+// Whatever the times are: skipping visits fewer samples and shades the same ones.
+TEST(BenchSkip, WritesATableInWhichSkippingSkips) {
+  const TemporaryFolder folder;
+  const auto run = runBurin({"bench", "skip", "--quick", "--size", "24", "--out", folder / "out"});
+  ASSERT_EQ(run.exitCode, 0) << run.err;
+  const auto lines = readCsv(folder / "out/skip.csv");
+  ASSERT_EQ(lines.size(), 12u);
+  for (std::size_t i = 0; i < lines.size(); i += 2) {
+    const Line& on = lines[i];
+    const Line& off = lines[i + 1];
+    SCOPED_TRACE(on.at("scene") + " " + on.at("visible_fraction"));
+    EXPECT_EQ(on.at("skip"), "on");
+    EXPECT_EQ(off.at("skip"), "off");
+    EXPECT_EQ(on.at("scene"), off.at("scene"));
+    EXPECT_EQ(on.at("samples_shaded"), off.at("samples_shaded"));
+    EXPECT_LE(std::stoll(on.at("samples_visited")), std::stoll(off.at("samples_visited")));
+    EXPECT_GT(std::stod(on.at("median_ms")), 0);
+    EXPECT_GT(std::stod(on.at("ratio_to_dense")), 0);
+  }
+  EXPECT_EQ(lines[0].at("scene"), "ball");
+  EXPECT_NEAR(std::stod(lines[0].at("visible_fraction")), 0.01, 0.001);
+  EXPECT_EQ(lines[10].at("scene"), "dense");
+  EXPECT_EQ(std::stod(lines[10].at("visible_fraction")), 1);
+  EXPECT_THAT(run.out, HasSubstr("one ball of 1 %"));
+}
+
+// A user's scene has nothing to be compared with.
+TEST(BenchSkip, TakesAScene) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("a scene.json", R"({ "schema_version": 1,
+    "volume": { "procedural": "shells", "dims": [24, 24, 24], "type": "u8" },
+    "image": { "size": [32, 32] },
+    "layers": [{ "transfer_function": { "points": [
+      { "value": 100, "color": "#8f1d18", "opacity": 0 },
+      { "value": 255, "color": "#d8473a", "opacity": 0.5 }] } }] })");
+  const auto run = runBurin({"bench", "skip", scene, "--quick", "--out", folder / "out"}, 2);
+  ASSERT_EQ(run.exitCode, 0) << run.err;
+  const auto lines = readCsv(folder / "out/skip.csv");
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_EQ(lines[0].at("scene"), "a_scene");
+  EXPECT_EQ(lines[0].at("ratio_to_dense"), "");
+}
+
+TEST(BenchScaling, WritesATableOfAllKinds) {
+  const TemporaryFolder folder;
+  const auto run = runBurin({"bench", "scaling", "--quick", "--size", "16", "--bricks", "1,3",
+                             "--repeats", "1", "--out", folder / "out"},
+                            2);
+  ASSERT_EQ(run.exitCode, 0) << run.err;
+  std::map<std::string, int> rows;
+  for (const Line& line : readCsv(folder / "out/scaling.csv")) {
+    SCOPED_TRACE(line.at("kind") + " " + line.at("mode") + " " + line.at("ranks"));
+    ++rows[line.at("kind") + " " + line.at("mode") + " " + line.at("ranks")];
+    const double slowest = std::stod(line.at("render_max_ms"));
+    EXPECT_GT(slowest, 0);
+    EXPECT_LE(std::stod(line.at("render_mean_ms")), slowest);
+    EXPECT_GE(std::stod(line.at("composite_ms")), 0);
+    EXPECT_GE(std::stod(line.at("imbalance")), 1);
+  }
+  for (const char* row : {"strong wall 1", "strong isolated 1", "strong isolated 3",
+                          "weak isolated 1", "weak isolated 3"})
+    EXPECT_EQ(rows[row], 1) << row;
+  EXPECT_EQ(rows["lum-ma isolated 8"], 2);
+  EXPECT_THAT(run.out, HasSubstr("8 ranks, lum-ma two-layers"));
+}
+
+// 2 x 2 x 4 cells.
+TEST(BenchScaling, MoreBricksThanTheVolumeHas) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("small.json", R"({ "schema_version": 1,
+    "volume": { "procedural": "ramp", "dims": [3, 3, 5], "type": "u8" },
+    "image": { "size": [16, 16] },
+    "layers": [{ "transfer_function": { "points": [
+      { "value": 0, "color": "#8f1d18", "opacity": 0 },
+      { "value": 255, "color": "#d8473a", "opacity": 0.5 }] } }] })");
+  const auto run = runBurin(
+      {"bench", "scaling", scene, "--bricks", "16,17", "--repeats", "1", "--out", folder / "out"});
+  EXPECT_EQ(run.exitCode, 2);
+  EXPECT_THAT(test::onlyLine(run.err), HasSubstr("--bricks 17: the volume makes 16 bricks"));
+}
+
 TEST(BenchCompositing, FolderThatCannotBe) {
   const TemporaryFolder folder;
   const std::string file = folder.write("file", "");
   const auto run = runBurin({"bench", "compositing", "--quick", "--out", file}, 2);
   EXPECT_EQ(run.exitCode, 2);
   EXPECT_THAT(test::onlyLine(run.err), HasSubstr(file));
+}
+
+TEST(BenchAccuracy, WritesATableWhoseErrorsFallWithTheStep) {
+  const TemporaryFolder folder;
+  const std::string scene = folder / "ramp.json";
+  std::ofstream{scene} << R"({ "schema_version": 1,
+    "volume": { "procedural": "shells", "dims": [16, 16, 16] },
+    "layers": [ { "name": "a", "transfer_function": { "points": [
+      { "value": 0.2, "color": "#204080", "opacity": 0 },
+      { "value": 0.9, "color": "#f0e0a0", "opacity": 0.4 } ] } } ] })";
+  const auto run =
+      runBurin({"bench", "accuracy", scene, "--quick", "--size", "16", "--out", folder / "out"}, 1);
+  ASSERT_EQ(run.exitCode, 0) << run.err;
+  const auto lines = readCsv(folder / "out/accuracy.csv");
+  ASSERT_EQ(lines.size(), 18);
+  double coarsest = 0;
+  double finest = 0;
+  for (const Line& line : lines) {
+    EXPECT_EQ(line.at("scene"), "ramp");
+    EXPECT_GT(std::stod(line.at("samples_visited")), 0);
+    const double error = std::stod(line.at("error_max"));
+    if (line.at("step_voxels") == "4") coarsest = std::max(coarsest, error);
+    if (line.at("step_voxels") == "0.125") finest = std::max(finest, error);
+    if (line.at("max_error_asked") != "0") {
+      EXPECT_LE(error, std::stod(line.at("max_error_asked")));
+    }
+  }
+  EXPECT_GT(coarsest, 20 * finest);  // second order would be a factor of 1000
+  EXPECT_GT(finest, 0);
 }
 
 }  // namespace

@@ -263,5 +263,74 @@ TEST(CommandLine, BenchNamesWhatIsWrong) {
   EXPECT_THAT(usageError({"bench"}, 8), HasSubstr("subcommand"));
 }
 
+BenchSkipOptions parseBenchSkip(std::vector<const char*> arguments) {
+  arguments.insert(arguments.begin(), {"bench", "skip"});
+  return std::get<BenchSkipOptions>(parse(arguments));
+}
+
+TEST(CommandLine, BenchSkipHasTheDocumentedDefaults) {
+  const BenchSkipOptions options = parseBenchSkip({});
+  EXPECT_EQ(options.input, "");
+  EXPECT_EQ(options.side, 256);
+  EXPECT_EQ(options.repeats, 5);
+  EXPECT_EQ(options.folder, "bench");
+  EXPECT_FALSE(options.quick);
+  EXPECT_EQ(parseBenchSkip({"--quick"}).side, 96);
+}
+
+TEST(CommandLine, BenchSkipTakesEveryOption) {
+  const BenchSkipOptions chosen =
+      parseBenchSkip({"--quick", "--size", "32", "--repeats", "7", "--out", "there"});
+  EXPECT_EQ(chosen.side, 32);
+  EXPECT_EQ(chosen.repeats, 7);
+  EXPECT_EQ(chosen.folder, "there");
+  const BenchSkipOptions own = parseBenchSkip({"scene.json", "--volume", "v.nrrd"});
+  EXPECT_EQ(own.input, "scene.json");
+  EXPECT_EQ(own.volume, "v.nrrd");
+}
+
+TEST(CommandLine, BenchSkipNamesWhatIsWrong) {
+  EXPECT_THAT(usageError({"bench", "skip", "--repeats", "4"}), HasSubstr("--repeats"));
+  EXPECT_THAT(usageError({"bench", "skip", "--size", "8"}), HasSubstr("--size"));
+  EXPECT_THAT(usageError({"bench", "skip", "v.nrrd", "--size", "64"}),
+              HasSubstr("--size 64 goes with the built-in volumes"));
+  EXPECT_THAT(usageError({"bench", "skip", "a.nrrd", "--volume", "b.nrrd"}),
+              HasSubstr("--volume goes with a scene"));
+}
+
+BenchScalingOptions parseBenchScaling(std::vector<const char*> arguments) {
+  arguments.insert(arguments.begin(), {"bench", "scaling"});
+  return std::get<BenchScalingOptions>(parse(arguments));
+}
+
+TEST(CommandLine, BenchScalingHasTheDocumentedDefaults) {
+  const BenchScalingOptions options = parseBenchScaling({});
+  EXPECT_THAT(options.bricks, ElementsAre(1, 2, 4, 8, 16, 32, 64, 128, 256));
+  EXPECT_EQ(options.side, 256);
+  EXPECT_EQ(options.repeats, 3);
+  EXPECT_EQ(options.folder, "bench");
+  const BenchScalingOptions quick = parseBenchScaling({"--quick"});
+  EXPECT_THAT(quick.bricks, ElementsAre(1, 2, 4, 8, 16, 32));
+  EXPECT_EQ(quick.side, 64);
+}
+
+TEST(CommandLine, BenchScalingTakesEveryOption) {
+  const BenchScalingOptions chosen =
+      parseBenchScaling({"--quick", "--bricks", "8,1,8,3", "--size", "32", "--repeats", "9"});
+  EXPECT_THAT(chosen.bricks, ElementsAre(1, 3, 8));
+  EXPECT_EQ(chosen.side, 32);
+  EXPECT_EQ(chosen.repeats, 9);
+  const BenchScalingOptions own = parseBenchScaling({"scene.json", "--out", "there"});
+  EXPECT_EQ(own.input, "scene.json");
+  EXPECT_EQ(own.folder, "there");
+}
+
+TEST(CommandLine, BenchScalingNamesWhatIsWrong) {
+  EXPECT_THAT(usageError({"bench", "scaling", "--bricks", "0"}), HasSubstr("--bricks"));
+  EXPECT_THAT(usageError({"bench", "scaling", "--bricks", "1,x"}), HasSubstr("--bricks"));
+  EXPECT_THAT(usageError({"bench", "scaling", "v.nrrd", "--size", "64"}),
+              HasSubstr("--size 64 goes with the built-in volumes"));
+}
+
 }  // namespace
 }  // namespace burin::host

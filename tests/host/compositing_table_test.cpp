@@ -41,7 +41,7 @@ TEST(CompositingTable, CsvHasTheContractsColumns) {
   EXPECT_THAT(csv, StartsWith("peer,pixel,schedule,ranks,width,height,active_fraction,network,"
                               "median_ms,bytes_compose,bytes_total,"));
   EXPECT_THAT(csv, HasSubstr("\nicet,rgba-float,radix-k,4,512,256,0.125,100mbit,1.2500,1000,3000,"
-                             "vessels,0.6250,2.5000,9,1.5e-07,\n"));
+                             "vessels,0.6250,2.5000,9,1.5e-07,NaN\n"));
 }
 
 /// The numbers of the summary's line that begins with `kind` and `schedule`.

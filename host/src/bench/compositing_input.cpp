@@ -1,13 +1,13 @@
 #include "bench/compositing_input.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <numbers>
 #include <random>
 #include <string_view>
 
+#include "bench/output_folder.hpp"
 #include "bench/trim.hpp"
 #include "burin/common/error.hpp"
 #include "burin/compositor/pixel_algebra.hpp"
@@ -41,13 +41,9 @@ constexpr std::string_view kCtPhantom = R"({
     { "value": 700, "color": "#fff7e6", "opacity": 0.9 }], "opacity_unit_length": 1 } }]
 })";
 
-/// What the table calls a file: its name, with nothing in it that the table or gnuplot would take
-/// for something else, and none of our own inputs'.
+/// What the table calls a file: none of our own inputs' names.
 std::string inputName(const std::filesystem::path& file) {
-  std::string name = file.stem().string();
-  for (char& c : name) {
-    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-' && c != '.') c = '_';
-  }
+  const std::string name = tableName(file);
   return name == "dense" || name == "disc" ? name + "-scene" : name;
 }
 

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "bench/exact_frame.hpp"
+#include "bench/median.hpp"
 
 namespace burin::host::bench {
 
@@ -50,12 +51,6 @@ CompositingMeasurement warmUp(const Communicator& comm, Contender& contender,
   return row;
 }
 
-/// The middle one, or the mean of the two in the middle.
-double median(std::span<const double> sorted) {
-  const std::size_t half = sorted.size() / 2;
-  return sorted.size() % 2 == 1 ? sorted[half] : 0.5 * (sorted[half - 1] + sorted[half]);
-}
-
 }  // namespace
 
 std::vector<CompositingMeasurement> measureCompositing(const Communicator& comm,
@@ -87,7 +82,7 @@ std::vector<CompositingMeasurement> measureCompositing(const Communicator& comm,
     const auto mine = std::span{times}.subspan(i * rounds, rounds);
     std::ranges::sort(mine);
     rows[i].repeats = repeats;
-    rows[i].medianMs = median(mine);
+    rows[i].medianMs = median({mine.begin(), mine.end()});
     rows[i].smallestMs = mine.front();
     rows[i].largestMs = mine.back();
   }

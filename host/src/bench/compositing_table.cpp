@@ -161,7 +161,7 @@ std::string compositingCsv(std::span<const Row> rows, std::string_view network) 
         row.peer, row.schedule, row.ranks, row.frame.width, row.frame.height, row.activeFraction,
         network, row.medianMs, row.bytesCompose, row.bytesTotal, row.input, row.smallestMs,
         row.largestMs, row.repeats, row.largestError,
-        row.modelledMs > 0 ? fmt::format("{:.4f}", row.modelledMs) : "");
+        row.modelledMs > 0 ? fmt::format("{:.4f}", row.modelledMs) : "NaN");
   }
   return text;
 }

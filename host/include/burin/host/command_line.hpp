@@ -78,6 +78,37 @@ struct BenchCompositingOptions {
   std::string network;         ///< its name in the table; empty: found out
 };
 
+/// burin bench skip
+struct BenchSkipOptions {
+  std::string input;   ///< SCENE or VOLUME to measure instead of the built-in scenes
+  std::string volume;  ///< --volume, as of RenderOptions
+  std::filesystem::path folder = "bench";  ///< --out
+  bool quick = false;
+  int side = 256;  ///< --size: voxels along each axis of the built-in volumes
+  int repeats = 5;
+};
+
+/// burin bench accuracy
+struct BenchAccuracyOptions {
+  std::string input;   ///< SCENE or VOLUME to measure instead of the built-in scenes
+  std::string volume;  ///< --volume, as of RenderOptions
+  std::filesystem::path folder = "bench";  ///< --out
+  bool quick = false;
+  int side = 256;  ///< --size: of the square frame
+  int repeats = 5;
+};
+
+/// burin bench scaling
+struct BenchScalingOptions {
+  std::string input;   ///< SCENE or VOLUME, for strong scaling only; empty: built-in scenes
+  std::string volume;  ///< --volume, as of RenderOptions
+  std::filesystem::path folder = "bench";  ///< --out
+  bool quick = false;
+  std::vector<int> bricks;  ///< numbers of ranks that are measured one by one, ascending
+  int side = 256;           ///< --size: voxels along each axis of the built-in volume
+  int repeats = 3;
+};
+
 /// burin styles
 struct StylesOptions {};
 
@@ -87,7 +118,8 @@ struct Answer {
 };
 
 using Command = std::variant<RenderOptions, InfoOptions, MakeVolumeOptions, StylesOptions,
-                             BenchCompositingOptions, Answer>;
+                             BenchCompositingOptions, BenchSkipOptions, BenchAccuracyOptions,
+                             BenchScalingOptions, Answer>;
 
 /// Reads the arguments (without the program's name). Depends on nothing else, so that all ranks
 /// come to the same result. `ranks`: how many take part. Throws Error{kUsage}, one line.

@@ -12,5 +12,8 @@ int runInfo(const Communicator& comm, const InfoOptions& options);
 int runMakeVolume(const Communicator& comm, const MakeVolumeOptions& options);
 int runStyles(const Communicator& comm);
 int runBenchCompositing(const Communicator& comm, const BenchCompositingOptions& options);
+int runBenchSkip(const Communicator& comm, const BenchSkipOptions& options);
+int runBenchAccuracy(const Communicator& comm, const BenchAccuracyOptions& options);
+int runBenchScaling(const Communicator& comm, const BenchScalingOptions& options);
 
 }  // namespace burin::host

@@ -1,0 +1,98 @@
+#include "bench/accuracy_measurement.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+
+#include "bench/median.hpp"
+#include "burin/host/frame_maker.hpp"
+
+namespace burin::host::bench {
+
+namespace {
+
+/// The plan's ways of drawing, not yet measured.
+std::vector<AccuracyMeasurement> waysOf(const std::string& scene, const AccuracyPlan& plan) {
+  std::vector<AccuracyMeasurement> ways;
+  const auto add = [&](bool preintegrated, std::optional<double> step,
+                       std::optional<double> maxError) {
+    AccuracyMeasurement& way = ways.emplace_back();
+    way.scene = scene;
+    way.preintegrated = preintegrated;
+    way.stepVoxels = step;
+    way.maxErrorAsked = maxError;
+  };
+  for (const bool preintegrated : {true, false}) {
+    for (const double step : plan.steps) add(preintegrated, step, {});
+    for (const double error : plan.maxErrors) add(preintegrated, {}, error);
+  }
+  return ways;
+}
+
+Quality qualityOf(const AccuracyMeasurement& way) {
+  Quality quality;
+  quality.preintegrated = way.preintegrated;
+  quality.maxError = way.maxErrorAsked;
+  // Steps are compared by themselves: rays end only where nothing could be seen any more.
+  if (way.stepVoxels) quality = {*way.stepVoxels, 1e-4, way.preintegrated, {}};
+  return quality;
+}
+
+Image<Rgba> copyOf(ImageView<const Rgba> frame) {
+  Image<Rgba> image{frame.size()};
+  for (int y = 0; y < frame.size().height; ++y)
+    std::ranges::copy(frame.row(y), image.row(y).begin());
+  return image;
+}
+
+/// Collective. The reference's picture on rank 0.
+Image<Rgba> truthOf(const Communicator& comm, PreparedScene& prepared, double step,
+                    const Camera& camera) {
+  prepared.scene.quality = {step, 0, true, {}};
+  RankStatistics unused;
+  return copyOf(makeReferenceFrames(comm, prepared, {}, [](double) {})->make(camera, unused));
+}
+
+/// Collective.
+std::unique_ptr<FrameMaker> makerOf(const Communicator& comm, PreparedScene& prepared,
+                                    const AccuracyMeasurement& way, bool countSamples) {
+  prepared.scene.quality = qualityOf(way);
+  return makeRaycastFrames(comm, prepared, {.countSamples = countSamples}, {});
+}
+
+}  // namespace
+
+std::vector<AccuracyMeasurement> measureAccuracy(const Communicator& comm, NamedScene& scene,
+                                                 const AccuracyPlan& plan) {
+  const Camera camera = resolveCamera(scene.prepared.scene, scene.prepared.facts);
+  const Image<Rgba> coarse = truthOf(comm, scene.prepared, 2 * plan.referenceStep, camera);
+  const Image<Rgba> truth = truthOf(comm, scene.prepared, plan.referenceStep, camera);
+  std::vector<AccuracyMeasurement> rows = waysOf(scene.name, plan);
+  std::vector<std::unique_ptr<FrameMaker>> makers;
+  for (const AccuracyMeasurement& way : rows)
+    makers.push_back(makerOf(comm, scene.prepared, way, false));
+  std::vector<std::vector<double>> times(rows.size());
+  for (int i = 0; i <= plan.repeats; ++i)
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      RankStatistics unused;
+      const auto start = std::chrono::steady_clock::now();
+      const ImageView<const Rgba> frame = makers[k]->make(camera, unused);
+      const std::chrono::duration<double, std::milli> time =
+          std::chrono::steady_clock::now() - start;
+      if (i > 0) times[k].push_back(time.count());  // the first compiles and warms up
+      if (i == 0 && comm.isRoot()) rows[k].error = pictureError(frame, truth);
+    }
+  makers.clear();
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    rows[k].medianMs = median(times[k]);
+    RankStatistics counted;
+    makerOf(comm, scene.prepared, rows[k], true)->make(camera, counted);
+    std::int64_t samples = counted.samplesVisited;
+    allReduce(comm, std::span{&samples, 1}, MPI_SUM);
+    rows[k].samplesVisited = samples;
+    if (comm.isRoot()) rows[k].referenceChange = pictureError(coarse, truth).largest;
+  }
+  return rows;
+}
+
+}  // namespace burin::host::bench

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "bench/timed_drawing.hpp"
+
+namespace burin::host::bench {
+
+/// One row of skip.csv: one scene with skipping on or off.
+struct SkipMeasurement {
+  std::string scene;
+  double visibleFraction = 0;  ///< voxels that some layer shows / all voxels
+  bool isSkipping = true;
+  int repeats = 0;
+  double medianMs = 0, smallestMs = 0, largestMs = 0;  ///< the slowest rank's drawing
+  /// Of all ranks, from a frame that is not timed.
+  std::int64_t samplesVisited = 0, samplesShaded = 0, samplesInOccupiedCells = 0, leaps = 0;
+  /// medianMs / the dense scene's in the same rounds; 0 without a dense scene.
+  double ratioToDense = 0;
+};
+
+/// Collective over `comm`. Draws one scene with skipping on and off and, if given, the dense scene
+/// (every voxel visible, the same size and frame), `repeats` times each, all in turns, so that what
+/// else the machine does meets them alike; before that once each to warm up, and once to count
+/// samples. On and off, in this order.
+std::array<SkipMeasurement, 2> measureSkip(const Communicator& comm, const std::string& name,
+                                           PreparedScene& prepared, TimedDrawing* dense,
+                                           int repeats);
+
+}  // namespace burin::host::bench
