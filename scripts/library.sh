@@ -53,6 +53,7 @@ build_jobs() {
 # Compiling again is faster through ccache, for those who have it.
 if [[ -z ${CMAKE_CXX_COMPILER_LAUNCHER+set} ]] && command -v ccache >/dev/null; then
   export CMAKE_CXX_COMPILER_LAUNCHER=ccache
+  export CCACHE_SLOPPINESS=${CCACHE_SLOPPINESS:-pch_defines,time_macros}  # for precompiled headers
 fi
 
 # Open MPI in containers: root is the usual user, the kernel may refuse one process to read another
