@@ -58,14 +58,17 @@ Scene readScene(const Communicator& comm, const RenderOptions& options) {
   return scene;
 }
 
-/// The default scene goes through its own text, so that --set works on it as on any other.
+/// The default scene goes through its own text, so that --set works on it as on any other. Its
+/// quality is the default and not in that text, so that either a step or an error can be set.
 Scene sceneFromVolume(const Communicator& comm, const RenderOptions& options,
                       const VolumeChoice& choice, node::BrickSource& source,
                       const VolumeFacts& facts) {
   const auto survey = node::surveyVolume(comm, source, false);
   const Histogram histogram = computeHistogram(comm, source, survey);
   const std::string text = writeScene(makeDefaultScene(choice, facts, histogram));
-  Scene scene = parseTogether(comm, text, "scene made for " + choice.file, options);
+  RenderOptions withoutQuality = options;
+  withoutQuality.settings.insert(withoutQuality.settings.begin(), "quality=null");
+  Scene scene = parseTogether(comm, text, "scene made for " + choice.file, withoutQuality);
   scene.volume = choice;
   return scene;
 }

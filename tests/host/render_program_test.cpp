@@ -104,6 +104,23 @@ TEST_F(Render, ExrIsTheFloatFrameWithItsScene) {
   EXPECT_EQ(scene.layers, parseScene(kScene, "test").layers);
 }
 
+TEST_F(Render, AVolumeWithoutASceneTakesAStepOrAnError) {
+  ASSERT_EQ(runBurin({"make-volume", "shells", "--dims", "20,20,20", "-o", path("shells.nrrd")}, 1)
+                .exitCode,
+            0);
+  const auto render = [&](const std::string& setting) {
+    return runBurin({"render", path("shells.nrrd"), "-o", path("v.exr"), "--size", "40x40",
+                     "--quiet", "--set", setting},
+                    1);
+  };
+  EXPECT_EQ(render("quality.step_voxels=0.015625").exitCode, 0);
+  const ReadPicture fine = readPicture(path("v.exr"));
+  EXPECT_EQ(render("quality.max_error=0.02").exitCode, 0);
+  const ReadPicture asked = readPicture(path("v.exr"));
+  EXPECT_GT(coverage(asked), 0.1);
+  EXPECT_LE(largestDifference(asked, fine), 0.02);  // 1/64 voxel is as good as the truth here
+}
+
 TEST_F(Render, PngIsTheFrameOverTheBackground) {
   draw(path("a.exr"));
   draw(path("a.png"));
