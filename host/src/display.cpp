@@ -82,7 +82,10 @@ void Display::finish(ImageView<const Rgba> frame) {
 
 void Display::write(int index, double orbitDeg) const {
   const fs::path target = frameFile(options_, index);
-  const PictureMetadata metadata{sceneTextFor(scene_, target), scene_.quality.stepVoxels, orbitDeg};
+  const Quality& quality = scene_.quality;
+  const PictureMetadata metadata{
+      sceneTextFor(scene_, target),
+      quality.maxError ? std::nullopt : std::optional{quality.stepVoxels}, orbitDeg};
   if (isExr()) {
     writeExr(target, frame_, metadata);
   } else {

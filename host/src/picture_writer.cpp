@@ -25,7 +25,8 @@ void describe(OIIO::ImageSpec& spec, const PictureMetadata& metadata) {
   spec.attribute("burin:version", programVersion());
   spec.attribute("burin:scene", metadata.scene);
   // As text: PNG has no other kind of entry.
-  spec.attribute("burin:step_voxels", fmt::format("{}", metadata.stepVoxels));
+  if (metadata.stepVoxels)
+    spec.attribute("burin:step_voxels", fmt::format("{}", *metadata.stepVoxels));
   spec.attribute("burin:orbit_deg", fmt::format("{}", metadata.orbitDeg));
 }
 

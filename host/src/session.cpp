@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "burin/common/error.hpp"
 #include "burin/common/log.hpp"
 #include "burin/common/temporary_file.hpp"
 #include "burin/host/interrupt.hpp"
@@ -27,6 +28,11 @@ Session::Session(const Communicator& comm, const RenderOptions& options)
   progress_.show("reading the volume");
   prepared_ = prepareScene(comm_, options_);
   onRoot(comm_, [&] { checkConflicts(options_, prepared_.scene.volume.file); });
+  together(comm_, "the scene", [&] {
+    if (options_.reference && prepared_.scene.quality.maxError)
+      fail(ExitCode::kUsage,
+           "--reference draws at a fixed step: expected quality.step_voxels, not max_error");
+  });
   checkCameras();
   if (!options_.saveScene.empty()) {
     onRoot(comm_, [&] {

@@ -163,14 +163,20 @@ void Worker::update(const Scene& scene) {
                                              &Layer::transferFunction, &Layer::transferFunction);
   const Scene before = std::exchange(state.scene, scene);
   if (mustLoad) return state.load();
-  Outcome outcome = attempt([&] {
+  const auto apply = [&] {
     if (!state.raycaster) return;
     state.context->makeCurrent();
-    state.raycaster->setScene(scene);
+    state.raycaster->setScene(state.scene);
     if (!sameValues) state.classify();
-  });
-  if (outcome.failed) state.scene = before;
-  agree(state.comm, "changing the scene", std::move(outcome));
+  };
+  try {
+    agree(state.comm, "changing the scene", attempt(apply));
+  } catch (const CollectiveError&) {
+    // Also where it went well: all ranks must draw the same scene.
+    state.scene = before;
+    apply();
+    throw;
+  }
 }
 
 Worker::~Worker() {

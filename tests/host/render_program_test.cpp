@@ -119,6 +119,7 @@ TEST_F(Render, AVolumeWithoutASceneTakesAStepOrAnError) {
   const ReadPicture asked = readPicture(path("v.exr"));
   EXPECT_GT(coverage(asked), 0.1);
   EXPECT_LE(largestDifference(asked, fine), 0.02);  // 1/64 voxel is as good as the truth here
+  EXPECT_EQ(asked.spec.get_string_attribute("burin:step_voxels"), "");  // every tile has its own
 }
 
 TEST_F(Render, PngIsTheFrameOverTheBackground) {

@@ -24,9 +24,9 @@ DisplayPicture toDisplay(ImageView<const Rgba> frame, const std::optional<Colour
 
 /// What a picture file says about itself beside its pixels.
 struct PictureMetadata {
-  std::string scene;      ///< JSON text
-  double stepVoxels = 0;  ///< the scene's quality.step_voxels
-  double orbitDeg = 0;    ///< azimuth added to the scene's (--orbit)
+  std::string scene;                 ///< JSON text
+  std::optional<double> stepVoxels;  ///< the scene's; unset if every tile chose its own
+  double orbitDeg = 0;               ///< azimuth added to the scene's (--orbit)
 };
 
 /// Write a whole file under a temporary name, then rename it. PNG: 8 bits. EXR: float,
