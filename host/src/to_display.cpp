@@ -1,5 +1,5 @@
-#include <algorithm>
-#include <cmath>
+#include <array>
+#include <cstdint>
 #include <glm/glm.hpp>
 
 #include "burin/host/picture.hpp"
@@ -9,27 +9,34 @@ namespace burin::host {
 
 namespace {
 
-void encodeOver(ImageView<const Rgba> frame, const Colour& background, const SrgbEncoder& encoder,
-                std::uint8_t* out) {
-  const glm::dvec3 linear = background.linear();
-  const Rgba back{static_cast<float>(linear.r), static_cast<float>(linear.g),
-                  static_cast<float>(linear.b), 1};
-  for (const Rgba& pixel : frame.pixels()) {
-    const Rgba shown = over(pixel, back);
-    *out++ = encoder.encode(shown.r);
-    *out++ = encoder.encode(shown.g);
-    *out++ = encoder.encode(shown.b);
+/// A pixel's thresholds of red, green, blue and alpha: the two-dimensional Kronecker sequence of
+/// the plastic number p, x / p + y / p², is even over any neighbourhood of pixels (Roberts 2018,
+/// "The unreasonable effectiveness of quasirandom sequences"). Channels are a quarter apart, so
+/// that their errors do not add up to a change of brightness. A pixel's place is all that counts:
+/// the same frame always gives the same picture.
+std::array<float, 4> thresholds(int x, int y) {
+  constexpr std::uint32_t kInverse = 3242174889;        // 2^32 / p
+  constexpr std::uint32_t kInverseSquare = 2447445414;  // 2^32 / p²
+  const std::uint32_t place =
+      static_cast<std::uint32_t>(x) * kInverse + static_cast<std::uint32_t>(y) * kInverseSquare;
+  std::array<float, 4> result;
+  for (std::uint32_t channel = 0; channel < 4; ++channel) {
+    const std::uint32_t step = (place + channel * 0x40000000u) >> 24;
+    result[channel] = (static_cast<float>(step) + 0.5f) / 256.0f;  // as far from 0 as from 1
   }
+  return result;
 }
 
-void encodeStraight(ImageView<const Rgba> frame, const SrgbEncoder& encoder, std::uint8_t* out) {
-  for (const Rgba& pixel : frame.pixels()) {
-    const float unpremultiply = pixel.a > 0 ? 1.0f / pixel.a : 0.0f;
-    *out++ = encoder.encode(pixel.r * unpremultiply);
-    *out++ = encoder.encode(pixel.g * unpremultiply);
-    *out++ = encoder.encode(pixel.b * unpremultiply);
-    *out++ = static_cast<std::uint8_t>(std::lround(std::clamp(pixel.a, 0.0f, 1.0f) * 255.0f));
-  }
+Rgba linearOf(const Colour& colour) {
+  const glm::dvec3 linear = colour.linear();
+  return {static_cast<float>(linear.r), static_cast<float>(linear.g), static_cast<float>(linear.b),
+          1};
+}
+
+/// Alpha is linear in its code, 255 per unit.
+std::uint8_t encodeAlpha(float alpha, float threshold) {
+  const float codes = 255.0f * glm::clamp(alpha, 0.0f, 1.0f);
+  return static_cast<std::uint8_t>(codes + 1.0f - threshold);
 }
 
 }  // namespace
@@ -40,10 +47,22 @@ DisplayPicture toDisplay(ImageView<const Rgba> frame, const std::optional<Colour
   picture.size = frame.size();
   picture.channels = background ? 3 : 4;
   picture.bytes.resize(frame.size().pixels() * static_cast<std::size_t>(picture.channels));
-  if (background) {
-    encodeOver(frame, *background, encoder, picture.bytes.data());
-  } else {
-    encodeStraight(frame, encoder, picture.bytes.data());
+  const Rgba back = background ? linearOf(*background) : Rgba{};
+  std::uint8_t* out = picture.bytes.data();
+  for (int y = 0; y < frame.size().height; ++y) {
+    for (int x = 0; x < frame.size().width; ++x) {
+      const std::array<float, 4> threshold = thresholds(x, y);
+      const Rgba& pixel = frame.at(x, y);
+      Rgba shown = over(pixel, back);
+      if (!background) {
+        const float straight = pixel.a > 0 ? 1.0f / pixel.a : 0.0f;
+        shown = {pixel.r * straight, pixel.g * straight, pixel.b * straight, pixel.a};
+      }
+      *out++ = encoder.encode(shown.r, threshold[0]);
+      *out++ = encoder.encode(shown.g, threshold[1]);
+      *out++ = encoder.encode(shown.b, threshold[2]);
+      if (!background) *out++ = encodeAlpha(pixel.a, threshold[3]);
+    }
   }
   return picture;
 }

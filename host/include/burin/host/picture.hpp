@@ -19,7 +19,9 @@ struct DisplayPicture {
 };
 
 /// The float frame over an opaque background (3 channels), or, without one, with straight alpha
-/// (4 channels). Each channel is rounded to the nearest of 256 codes.
+/// (4 channels). Each channel becomes one of the two codes next to it, by a threshold of the
+/// pixel's own place: smooth shades keep their mean and show no bands; exact codes (a flat
+/// background) stay.
 DisplayPicture toDisplay(ImageView<const Rgba> frame, const std::optional<Colour>& background);
 
 /// What a picture file says about itself beside its pixels.
