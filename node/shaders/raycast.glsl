@@ -40,6 +40,7 @@ void main() {
   uint visited = 0u, shaded = 0u, inOccupied = 0u, leaps = 0u;
   SkipState skip = beginSkipping(ray, j);
   prepareVolume();
+  prepareLights();
   prepareLayers();
   vec3 coordinateOrigin = textureCoordinate(ray.origin);
   vec3 coordinateAlong = ray.along * texelSize;

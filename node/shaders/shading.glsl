@@ -23,15 +23,24 @@ vec3 directionToEye() {
   return normalize(eyeward + f.x * eyewardX + f.y * eyewardY);
 }
 
-uniform vec3 lightDirection[LIGHTS];  // world, towards the light
-uniform vec3 lightColour[LIGHTS];     // linear, times intensity
+uniform vec3 lightDirections[LIGHTS];
+uniform vec3 lightColours[LIGHTS];
+vec3 lightDirection[LIGHTS];  // world, towards the light
+vec3 lightColour[LIGHTS];     // linear, times intensity
+
+// Uniforms that the loop over samples reads are copied before it: the driver fetches a uniform anew
+// at each use, eight times over, in some twenty instructions.
+void prepareLights() {
+  lightDirection = lightDirections;
+  lightColour = lightColours;
+}
 
 const int kNormalOutward = 0, kNormalInward = 1, kNormalFacing = 2;
 
 // `gradient`: world direction of increasing values, its length is the magnitude over the scale.
 Surface surfaceOf(vec3 gradient, float magnitude, float noiseFloor, int orientation, vec3 toEye) {
   float size = length(gradient);
-  vec3 normal = size > 0.0 ? gradient / -size : vec3(0.0);
+  vec3 normal = size > 0.0 ? gradient * (-1.0 / size) : vec3(0.0);
   if (orientation == kNormalInward) normal = -normal;
   if (orientation == kNormalFacing && dot(normal, toEye) < 0.0) normal = -normal;
   float m = min(magnitude, 1.0);

@@ -3,9 +3,9 @@
 // itself, minus the distance to the nearest one that cannot. Cells are aligned to the global grid. Leaving samples out never changes a picture: positions stay on
 // the lattice and only samples in empty macrocells are passed over.
 
-uniform isampler3D distanceMap;
-uniform vec3 cellOffset;   // added to a position: voxels from the map's corner
-uniform bool skipEmpty;    // false: visit everything (for comparison)
+uniform isampler3D distanceMap;  // filters to the nearest: texelFetch would cost twice as much
+uniform vec3 cellOffset;         // added to a position: voxels from the map's corner
+uniform bool skipEmpty;          // false: visit everything (for comparison)
 
 const float kCell = 4.0;   // kMacrocellSize in macrocells.hpp
 // Planes; far above the rounding of an exit, and at most 1e-3 voxels, by how much the ranges of
@@ -17,6 +17,10 @@ struct SkipState {
   vec3 origin, along;  // along is never 0
   vec3 inverse;        // of along
   vec3 ahead;          // per axis 1 if the ray ascends, else 0
+  vec3 lastCell;       // of the map
+  vec3 perMap;         // 1 / cells of the map
+  float margin;        // exitMargin
+  bool leaps;          // skipEmpty
   int knownUntil;      // first segment of which nothing is known
   bool occupied;       // of the segments before knownUntil
   float emptyUntil;    // planes: the ray crosses nothing visible before
@@ -30,6 +34,11 @@ SkipState beginSkipping(Ray ray, int j) {
     if (abs(state.along[axis]) < 1e-25) state.along[axis] = 1e-25;
   state.inverse = 1.0 / state.along;
   state.ahead = vec3(greaterThan(state.along, vec3(0.0)));
+  vec3 cells = vec3(textureSize(distanceMap, 0));
+  state.lastCell = cells - 1.0;
+  state.perMap = 1.0 / cells;
+  state.margin = exitMargin;
+  state.leaps = skipEmpty;
   state.knownUntil = j;
   state.occupied = false;
   state.emptyUntil = segmentBegin(ray, j);
@@ -40,8 +49,8 @@ SkipState beginSkipping(Ray ray, int j) {
 // macrocells of which the same is true.
 float macrocellExit(inout SkipState state, float where) {
   vec3 cell = floor(state.origin + where * state.along);
-  cell = clamp(cell, vec3(0.0), vec3(textureSize(distanceMap, 0) - 1));
-  int distance = texelFetch(distanceMap, ivec3(cell), 0).r;
+  cell = clamp(cell, vec3(0.0), state.lastCell);
+  int distance = texture(distanceMap, (cell + 0.5) * state.perMap).r;
   state.occupied = distance < 0;
   float reach = float(abs(distance) - 1);
   vec3 corner = cell + state.ahead + (2.0 * state.ahead - 1.0) * reach;
@@ -57,12 +66,12 @@ void lookAhead(Ray ray, inout int j, inout SkipState state) {
   float from = max(segmentBegin(ray, j), state.emptyUntil);
   float exit = min(macrocellExit(state, from), ray.end + 1.0);
   // Without progress in this number format the segment counts as occupied.
-  state.occupied = state.occupied || !(exit + exitMargin > from);
-  state.emptyUntil = state.occupied ? from : exit + exitMargin;
+  state.occupied = state.occupied || !(exit + state.margin > from);
+  state.emptyUntil = state.occupied ? from : exit + state.margin;
   int begunBefore = max(j + 1, int(ceil(exit)));
-  int emptyBefore = int(floor(exit + exitMargin));  // the segment in which the exit lies
+  int emptyBefore = int(floor(exit + state.margin));  // the segment in which the exit lies
   state.knownUntil = state.occupied ? begunBefore : emptyBefore;
-  j = state.occupied || !skipEmpty ? j : emptyBefore;
+  j = state.occupied || !state.leaps ? j : emptyBefore;
 }
 #else
 // A segment needs a visit if its sample is in a macrocell that may be visible.
@@ -70,7 +79,7 @@ void lookAhead(Ray ray, inout int j, inout SkipState state) {
   float where = 0.5 * (segmentBegin(ray, j) + segmentEnd(ray, j));
   float exit = min(macrocellExit(state, where), ray.end + 1.0);
   // Samples lie at j + 1/2, or before it in the last segment: all below the exit share this box.
-  state.knownUntil = max(j + 1, int(ceil(exit - exitMargin - 0.5)));
-  j = state.occupied || !skipEmpty ? j : state.knownUntil;
+  state.knownUntil = max(j + 1, int(ceil(exit - state.margin - 0.5)));
+  j = state.occupied || !state.leaps ? j : state.knownUntil;
 }
 #endif

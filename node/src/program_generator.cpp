@@ -41,14 +41,19 @@ class CurveSet {
  public:
   int add(const std::string& uniform, const Curve& curve) {
     const int number = count_++;
-    declarations_ += fmt::format("uniform vec3 {}[{}];\n", uniform, curve.points.size());
-    cases_ += fmt::format("  if (number == {}) {{\n    y = {}[0].x;\n", number, uniform);
+    const std::string kept = "kept_" + uniform;
+    declarations_ +=
+        fmt::format("uniform vec3 {0}[{2}];\nvec3 {1}[{2}];\n", uniform, kept, curve.points.size());
+    prepare_ += fmt::format("  {} = {};\n", kept, uniform);
+    cases_ += fmt::format("  if (number == {}) {{\n    y = {}[0].x;\n", number, kept);
     for (std::size_t i = 1; i < curve.points.size(); ++i)
-      cases_ += fmt::format("    y += {0}[{1}].z * clamp(x - {0}[{1}].x, 0.0, {0}[{1}].y);\n",
-                            uniform, i);
+      cases_ +=
+          fmt::format("    y += {0}[{1}].z * clamp(x - {0}[{1}].x, 0.0, {0}[{1}].y);\n", kept, i);
     cases_ += "  }\n";
     return number;
   }
+  /// Copies them before the loop.
+  const std::string& prepare() const { return prepare_; }
   std::string text() const {
     if (count_ == 0) return "";
     return declarations_ + "float evaluateCurve(int number, float x) {\n  float y = 0.0;\n" +
@@ -58,14 +63,27 @@ class CurveSet {
  private:
   int count_ = 0;
   std::string declarations_;
+  std::string prepare_;
   std::string cases_;
 };
 
-/// The statements that fill `<style>_parameters p` for one layer, and the uniforms they read.
+/// The statements that fill `<style>_parameters p` for one layer, the uniforms they read, and what
+/// copies those before the loop.
 struct ParameterCode {
   std::string uniforms;
+  std::string prepare;
   std::string statements;
 };
+
+/// Declares a uniform and the copy of it that the loop over samples reads (see prepareLights() in
+/// shading.glsl); returns the copy's name. `prepare` gets the statement that copies.
+std::string keepUniform(std::string_view type, const std::string& uniform,
+                        std::string& declarations, std::string& prepare) {
+  std::string kept = "kept_" + uniform;
+  declarations += fmt::format("uniform {0} {1};\n{0} {2};\n", type, uniform, kept);
+  prepare += fmt::format("  {} = {};\n", kept, uniform);
+  return kept;
+}
 
 ParameterCode parameterCode(const StyleSettings& settings, const StyleSpec& style,
                             std::size_t layer, CurveSet& curves) {
@@ -79,7 +97,7 @@ ParameterCode parameterCode(const StyleSettings& settings, const StyleSpec& styl
       value =
           fmt::format("{}", curves.add(curveUniform(layer, style.name, parameter.name), *curve));
     } else {
-      code.uniforms += fmt::format("uniform {} {};\n", typeOf(parameter), value);
+      value = keepUniform(typeOf(parameter), value, code.uniforms, code.prepare);
     }
     code.statements += fmt::format("    p.{} = {};\n", parameter.name, value);
   }
@@ -125,23 +143,25 @@ class LayerCode {
 
   /// The class of the middle's value.
   void addMiddleClass(std::size_t i) {
-    uniforms_ += fmt::format("vec4 class{};\nuniform vec2 {};\n", i, visibleBinsUniform(i));
+    uniforms_ += fmt::format("vec4 class{};\n", i);
+    const std::string bins = keepUniform("vec2", visibleBinsUniform(i), uniforms_, prepare_);
     classify_ += fmt::format(
         "  float x{0} = (middle - scale{0}.x) * scale{0}.y;\n"
         "  class{0} = texture({1}, vec2((x{0} + 0.5) * scale{0}.w, 0.0));\n"
         "  extinction{0} = x{0} > {2}.x && x{0} < {2}.y ? class{0}.a : 0.0;\n",
-        i, transferUniform(i), visibleBinsUniform(i));
+        i, transferUniform(i), bins);
   }
 
   /// Means over the values between the segment's ends.
   void addSegmentClass(std::size_t i) {
-    uniforms_ += fmt::format("vec4 first{0}, end{0};\n", i);
+    uniforms_ +=
+        fmt::format("uniform sampler1D {1};\nvec4 first{0}, end{0};\n", i, extinctionUniform(i));
     prepare_ += fmt::format(
         "  first{0} = texelFetch({1}, ivec2(0), 0);\n"
         "  end{0} = texelFetch({1}, ivec2(int(scale{0}.z), 0), 0);\n",
         i, transferUniform(i));
-    ends_ += fmt::format("  side.layers[{0}] = classifyEnd({1}, scale{0}, side.value);\n", i,
-                         transferUniform(i));
+    ends_ += fmt::format("  side.layers[{0}] = classifyEnd({1}, {2}, scale{0}, side.value);\n", i,
+                         transferUniform(i), extinctionUniform(i));
     classify_ += fmt::format(
         "  extinction{0} = meanExtinction(scale{0}, front.layers[{0}], back.layers[{0}]);\n", i);
   }
@@ -161,10 +181,11 @@ class LayerCode {
   }
 
   void addSurface(std::size_t i, const Layer& layer) {
-    const std::string floor = parameterUniform(i, "gradient", "noise_floor");
-    uniforms_ += fmt::format("uniform float {};\nuniform float {};\n", floor, magnitudeUniform(i));
+    const std::string floor =
+        keepUniform("float", parameterUniform(i, "gradient", "noise_floor"), uniforms_, prepare_);
+    const std::string unit = keepUniform("float", magnitudeUniform(i), uniforms_, prepare_);
     body_ += fmt::format("    Surface g = surfaceOf(gradient, magnitude * {}, {}, {}, toEye);\n",
-                         magnitudeUniform(i), floor, normalOrientation(layer.style("gradient")));
+                         unit, floor, normalOrientation(layer.style("gradient")));
   }
 
   void addStyles(std::size_t i, const Layer& layer) {
@@ -173,6 +194,7 @@ class LayerCode {
       if (!style.hasSnippet) continue;
       const ParameterCode code = parameterCode(settings, style, i, curves_);
       uniforms_ += code.uniforms;
+      prepare_ += code.prepare;
       body_ += fmt::format("    {{\n    {0}_parameters p;\n{1}    apply_{0}(s, {2}p);\n    }}\n",
                            style.name, code.statements, style.needsGradient ? "g, " : "");
     }
@@ -192,8 +214,11 @@ class LayerCode {
   /// after the styles, for a segment that was classified last.
   std::string functions() const {
     const bool preintegrated = scene_.quality.preintegrated;
-    std::string text = gradient_ ? "uniform mat3 differencesToGradient;\n" : "";
-    text += "void prepareLayers() {\n" + prepare_ + "}\n";
+    std::string text;
+    std::string prepare = prepare_ + curves_.prepare();
+    const std::string toGradient =
+        gradient_ ? keepUniform("mat3", "differencesToGradient", text, prepare) : "";
+    text += "void prepareLayers() {\n" + prepare + "}\n";
     if (preintegrated)
       text += "void classifySide(inout Side side) {\n" + ends_ + "}\n#include \"sides.glsl\"\n";
     text += fmt::format("bool classify({}) {{\n",
@@ -203,11 +228,12 @@ class LayerCode {
         "void shade(vec3 coordinate, {}vec3 toEye, out vec3 colour, out float extinction) {{\n",
         preintegrated ? "Side front, Side back, " : "");
     if (gradient_)
-      text +=
-          "  vec3 gradient = differencesToGradient * volumeDifferences(coordinate);\n"
-          "  float magnitude = length(gradient);\n";
+      text += fmt::format(
+          "  vec3 gradient = {} * volumeDifferences(coordinate);\n"
+          "  float magnitude = length(gradient);\n",
+          toGradient);
     return text + "  colour = vec3(0.0);\n  extinction = 0.0;\n" + body_ +
-           "  if (extinction > 0.0) colour /= extinction;\n}\n";
+           "  if (extinction > 0.0) colour *= 1.0 / extinction;\n}\n";
   }
 
   const Scene& scene_;
@@ -227,6 +253,9 @@ std::string curveUniform(std::size_t layer, std::string_view style, std::string_
 }
 std::string transferUniform(std::size_t layer) {
   return fmt::format("transfer{}", layer);
+}
+std::string extinctionUniform(std::size_t layer) {
+  return fmt::format("extinctions{}", layer);
 }
 std::string transferScaleUniform(std::size_t layer) {
   return fmt::format("transferScale{}", layer);

@@ -23,6 +23,7 @@ ShaderSource generateRaycastProgram(const Scene& scene, const ProgramOptions& op
 std::string parameterUniform(std::size_t layer, std::string_view style, std::string_view parameter);
 std::string curveUniform(std::size_t layer, std::string_view style, std::string_view parameter);
 std::string transferUniform(std::size_t layer);       ///< sampler1DArray
+std::string extinctionUniform(std::size_t layer);     ///< sampler1D: TransferRows::extinction
 std::string transferScaleUniform(std::size_t layer);  ///< vec4: first value, bins per unit,
                                                       ///< bins, 1 / texels
 std::string visibleBinsUniform(std::size_t layer);    ///< vec2: nothing shows outside of it

@@ -28,6 +28,13 @@ std::vector<TransferTable> makeTables(const Scene& scene, const ValueScale& scal
   return tables;
 }
 
+void setLookUp(const Texture& texture, GLint filter) {
+  gl().TextureParameteri(texture.id(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  gl().TextureParameteri(texture.id(), GL_TEXTURE_MIN_FILTER, filter);
+  gl().TextureParameteri(texture.id(), GL_TEXTURE_MAG_FILTER, filter);
+  checkGl("uploading a transfer function");
+}
+
 /// Rows of equal length as the layers of an array texture.
 Texture uploadRows(std::span<const std::span<const glm::vec4>> rows) {
   Texture texture = makeTexture(GL_TEXTURE_1D_ARRAY);
@@ -36,17 +43,31 @@ Texture uploadRows(std::span<const std::span<const glm::vec4>> rows) {
   for (std::size_t i = 0; i < rows.size(); ++i)
     gl().TextureSubImage2D(texture.id(), 0, 0, static_cast<GLint>(i), width, 1, GL_RGBA, GL_FLOAT,
                            rows[i].data());
-  gl().TextureParameteri(texture.id(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-  gl().TextureParameteri(texture.id(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-  gl().TextureParameteri(texture.id(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  checkGl("uploading a transfer function");
+  setLookUp(texture, GL_LINEAR);
   return texture;
 }
 
-Texture uploadTransferFunction(const TransferTable& table, bool preintegrated) {
+Texture uploadEntries(std::span<const glm::vec4> entries) {
+  Texture texture = makeTexture(GL_TEXTURE_1D);
+  const auto width = static_cast<GLsizei>(entries.size());
+  gl().TextureStorage1D(texture.id(), 1, GL_RGBA32F, width);
+  gl().TextureSubImage1D(texture.id(), 0, 0, width, GL_RGBA, GL_FLOAT, entries.data());
+  setLookUp(texture, GL_NEAREST);
+  return texture;
+}
+
+/// One layer's look-ups, in the order of their texture units.
+std::vector<Texture> uploadTransferFunction(const TransferTable& table, bool preintegrated) {
   const TransferRows rows = transferRows(table);
-  const std::array<std::span<const glm::vec4>, 3> all{rows.table, rows.colour, rows.extinction};
-  return uploadRows(std::span{all}.first(preintegrated ? 3 : 1));
+  std::vector<Texture> textures;
+  if (preintegrated) {
+    textures.push_back(
+        uploadRows(std::array<std::span<const glm::vec4>, 2>{rows.table, rows.colour}));
+    textures.push_back(uploadEntries(rows.extinction));
+  } else {
+    textures.push_back(uploadRows(std::array<std::span<const glm::vec4>, 1>{rows.table}));
+  }
+  return textures;
 }
 
 /// curve[0].x is the start value; the others (x, length, slope) of each linear piece.
@@ -95,7 +116,8 @@ void Raycaster::setScene(const Scene& scene) {
     std::vector<TransferTable> tables = makeTables(scene, scale_);
     std::vector<Texture> textures;
     for (const TransferTable& table : tables)
-      textures.push_back(uploadTransferFunction(table, scene.quality.preintegrated));
+      std::ranges::move(uploadTransferFunction(table, scene.quality.preintegrated),
+                        std::back_inserter(textures));
     tables_ = std::move(tables);
     transferTextures_ = std::move(textures);
   }
@@ -129,7 +151,7 @@ void Raycaster::setSceneUniforms() {
   std::vector<glm::vec3> lightColours;
   for (const Light& light : scene_.lights)
     lightColours.push_back(toFloat(light.colour.linear() * light.intensity));
-  program_->set("lightColour", lightColours);
+  program_->set("lightColours", lightColours);
   for (std::size_t i = 0; i < scene_.layers.size(); ++i) setStyleUniforms(i);
 }
 
@@ -142,7 +164,10 @@ void Raycaster::setStyleUniforms(std::size_t layer) {
   const TransferTable& table = tables_[layer];
   const auto bins = static_cast<double>(table.entries.size() - 1);
   program_->set(visibleBinsUniform(layer), glm::vec2{table.visibleBins()});
-  program_->set(transferUniform(layer), static_cast<int>(kFirstTransferUnit + layer));
+  const std::size_t perLayer = transferTextures_.size() / tables_.size();
+  const std::size_t firstUnit = kFirstTransferUnit + layer * perLayer;
+  program_->set(transferUniform(layer), static_cast<int>(firstUnit));
+  if (perLayer > 1) program_->set(extinctionUniform(layer), static_cast<int>(firstUnit + 1));
   program_->set(transferScaleUniform(layer),
                 glm::vec4{glm::dvec4{scale_.stored(table.first),
                                      bins * scale_.range / (table.last - table.first), bins,
@@ -198,7 +223,7 @@ void Raycaster::setViewUniforms(const Camera& camera) {
   std::vector<glm::vec3> lights;
   for (const Light& light : scene_.lights)
     lights.push_back(toFloat(lightDirectionWorld(light, camera)));
-  program_->set("lightDirection", lights);
+  program_->set("lightDirections", lights);
 }
 
 void Raycaster::setBrickUniforms(const Brick& brick) {
