@@ -1,6 +1,6 @@
 // Marches one brick's part of each ray, front to back. Included by the generated program, which
-// defines LAYERS, LIGHTS, CLIP_PLANES, PREINTEGRATED, the classification of each layer and
-// shadeSample().
+// defines LAYERS, LIGHTS, CLIP_PLANES, PREINTEGRATED, SEVERAL_BRICKS, the classification of each layer
+// and shade().
 //
 // out  target 0: premultiplied linear RGBA of this brick alone
 
@@ -8,6 +8,9 @@ layout(location = 0) out vec4 result;
 
 uniform vec3 brickLo, brickHi;   // owns samples lo <= p < hi; +-1e30 at the volume's own faces
 uniform float termination;       // a ray ends when its transmittance is below; 0: never
+#ifdef SEVERAL_BRICKS
+uniform sampler2D frame;         // the target: what the bricks in front have drawn
+#endif
 
 #ifdef COUNT_SAMPLES
 layout(std430, binding = 0) buffer Counters { uint visited, shaded, inOccupied, leaps; } counters;
@@ -17,6 +20,16 @@ bool owned(vec3 position) {
   return all(greaterThanEqual(position, brickLo)) && all(lessThan(position, brickHi));
 }
 
+// Opacity of this brick's part at which the ray ends; 0 or less if the bricks in front are enough.
+float sufficientOpacity() {
+#ifdef SEVERAL_BRICKS
+  float transmittance = 1.0 - texelFetch(frame, ivec2(gl_FragCoord.xy), 0).a;
+  return 1.0 - termination / max(transmittance, 1e-30);
+#else
+  return 1.0 - termination;
+#endif
+}
+
 // 1 - exp(-x), accurate for small x (the driver's exp is not).
 float opacityOf(float x) {
   return x < 0.01 ? x * (1.0 - 0.5 * x * (1.0 - x * (1.0 / 3.0))) : 1.0 - exp(-x);
@@ -24,6 +37,8 @@ float opacityOf(float x) {
 
 void main() {
   result = vec4(0.0);
+  float sufficient = sufficientOpacity();
+  if (sufficient <= 0.0) return;
   Ray ray = pixelRay();
   // The brick's own interval only bounds the search, a plane wider at each end than rounding needs;
   // ownership decides. Owned samples are consecutive, because every coordinate is monotonic in j.
@@ -45,7 +60,6 @@ void main() {
   vec3 coordinateOrigin = textureCoordinate(ray.origin);
   vec3 coordinateAlong = ray.along * texelSize;
   vec3 toEye = directionToEye();
-  float opaque = 1.0 - termination;
   vec4 sum = vec4(0.0);
 #ifdef PREINTEGRATED
   Side front;
@@ -101,7 +115,7 @@ void main() {
     leaps += uint(j != before);
 #endif
     j += int(sampled);
-    last = sum.a > opaque ? j - 1 : last;
+    last = sum.a > sufficient ? j - 1 : last;
   }
   result = sum;
 #ifdef COUNT_SAMPLES

@@ -273,6 +273,7 @@ ShaderSource generateRaycastProgram(const Scene& scene, const ProgramOptions& op
                       scene.clip.size());
   if (options.invalidVoxels) text += "#define INVALID_VOXELS\n";
   if (options.countSamples) text += "#define COUNT_SAMPLES\n";
+  if (options.severalBricks) text += "#define SEVERAL_BRICKS\n";
   if (scene.quality.preintegrated)
     text += fmt::format("#define PREINTEGRATED\n#define LAYERS {}\n", scene.layers.size());
   for (const char* file : {"lattice.glsl", "volume.glsl", "skip.glsl", "shading.glsl"})

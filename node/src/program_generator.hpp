@@ -12,6 +12,7 @@ namespace burin::node {
 struct ProgramOptions {
   bool invalidVoxels = false;
   bool countSamples = false;
+  bool severalBricks = false;  ///< blended one behind the other into one frame
 };
 
 /// The fused ray-cast program of a scene: all layers and passes, only what the scene uses. Two

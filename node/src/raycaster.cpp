@@ -13,7 +13,8 @@ namespace {
 constexpr float kFar = 1e30f;  // kFar in lattice.glsl
 constexpr GLuint kVolumeUnit = 0;
 constexpr GLuint kDistanceUnit = 1;
-constexpr GLuint kFirstTransferUnit = 2;
+constexpr GLuint kFrameUnit = 2;
+constexpr GLuint kFirstTransferUnit = 3;
 
 glm::vec3 toFloat(const glm::dvec3& v) {
   return glm::vec3{v};
@@ -107,7 +108,8 @@ void Raycaster::setScene(const Scene& scene) {
                            scene_.quality.preintegrated == scene.quality.preintegrated &&
                            std::ranges::equal(scene_.layers, scene.layers, {},
                                               &Layer::transferFunction, &Layer::transferFunction);
-  ShaderSource source = generateRaycastProgram(scene, {scale_.hasInvalid, options_.countSamples});
+  ShaderSource source = generateRaycastProgram(
+      scene, {scale_.hasInvalid, options_.countSamples, options_.severalBricks});
   auto known = programs_.find(source.text);
   if (known == programs_.end())
     known = programs_.try_emplace(source.text, vertexSource(), source).first;
@@ -128,6 +130,7 @@ void Raycaster::setScene(const Scene& scene) {
 void Raycaster::setSceneUniforms() {
   program_->set("volume", static_cast<int>(kVolumeUnit));
   program_->set("distanceMap", static_cast<int>(kDistanceUnit));
+  program_->set("frame", static_cast<int>(kFrameUnit));
   program_->set("skipEmpty", options_.skip ? 1 : 0);
   program_->set("termination", static_cast<float>(scene_.quality.termination));
   const Box box = grid_.boxIndex();
@@ -320,8 +323,10 @@ compositor::SubimageView<Rgba> Raycaster::draw(
   gl().ClearNamedFramebufferfv(framebuffer_.id(), GL_COLOR, 0, kNothing.data());
   for (std::size_t i = 0; i < transferTextures_.size(); ++i)
     gl().BindTextureUnit(kFirstTransferUnit + static_cast<GLuint>(i), transferTextures_[i].id());
+  gl().BindTextureUnit(kFrameUnit, target_.id());
   double step = 0;
   for (const Job& job : jobs) {
+    gl().TextureBarrier();  // the next brick reads what this one drew, each pixel its own
     setBrickUniforms(*job.brick);
     std::vector<StepRun> runs{{scene_.quality.stepVoxels, job.pixels}};
     if (steps != nullptr) runs = stepRuns(*steps, job.pixels);

@@ -20,6 +20,7 @@ namespace burin::node {
 struct RaycastOptions {
   bool skip = true;
   bool countSamples = false;
+  bool severalBricks = false;  ///< draw() gets more than one: those behind need what is in front
 };
 
 /// Draws bricks with the fused ray-cast program. Holds the program of the current scene, its

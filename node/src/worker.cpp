@@ -128,7 +128,7 @@ void Worker::State::load() {
     context->makeCurrent();
     raycaster.emplace(scene, volume.grid, scale,
                       Raycaster::GradientScales{survey.gradient999, survey.largestGradient},
-                      RaycastOptions{options.skip, options.countSamples});
+                      RaycastOptions{options.skip, options.countSamples, mine.size() > 1});
     for (const BrickId id : mine) {
       bricks.emplace_back(id, tree.brickCells(id), ghosts, volume, scale);
       boxes.push_back(bricks.back().storedVoxels());

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <random>
 
 #include "support/drawing.hpp"
@@ -27,34 +28,96 @@ TransferFunction randomTransferFunction(std::mt19937& random) {
   return function;
 }
 
+/// What decides a program: every style with each of these, so that few programs are compiled.
+struct Kind {
+  int layers;
+  bool preintegrated;
+  int clipPlanes;
+};
+constexpr std::array<Kind, 5> kKinds{
+    {{1, true, 0}, {2, true, 0}, {3, false, 0}, {1, false, 1}, {1, true, 2}}};
+
+/// Any values, seen from anywhere.
+Scene randomScene(const std::string& style, const Kind& kind, std::mt19937& random) {
+  std::uniform_real_distribution<double> unit{0, 1};
+  Scene scene = sceneWithStyle(style);
+  scene.imageSize = {48, 40};
+  scene.layers.resize(static_cast<std::size_t>(kind.layers), scene.layers.front());
+  for (Layer& layer : scene.layers) layer.transferFunction = randomTransferFunction(random);
+  scene.quality.termination = unit(random) < 0.5 ? 0 : 0.002;
+  scene.quality.preintegrated = kind.preintegrated;
+  scene.quality.stepVoxels = 0.3 + 1.5 * unit(random);
+  scene.camera.azimuthDeg = 360 * unit(random);
+  scene.camera.elevationDeg = 180 * unit(random) - 90;
+  scene.camera.zoom = 0.7 + unit(random);
+  if (unit(random) < 0.3) scene.camera.projection = Projection::kOrthographic;
+  for (int i = 0; i < kind.clipPlanes; ++i)
+    scene.clip.push_back(
+        {glm::normalize(glm::dvec3{unit(random), unit(random) - 0.5, unit(random)}),
+         -12 * unit(random)});
+  return scene;
+}
+
+// 200 scenes as edits of one another, of one brick and of four.
 TEST(Skipping, OnEqualsOffBitForBit) {
+  constexpr int kScenesOfEachKind = 6;
+  const Communicator self{MPI_COMM_SELF};
   std::mt19937 random{7};
-  const std::vector<std::string> styles = drawnStyles();
   int skippedSomething = 0;
-  for (int i = 0; i < 24; ++i) {
-    ArraySource source = smoothVolume(gridOf({30 + i, 50 - i, 41}, {1, 1.3, 0.7}));
-    Scene scene = sceneWithStyle(styles[static_cast<std::size_t>(i) % styles.size()]);
-    scene.layers[0].transferFunction = randomTransferFunction(random);
-    scene.quality.termination = i % 2 == 0 ? 0 : 0.002;
-    scene.camera.azimuthDeg = 40 * i;
-    scene.camera.elevationDeg = 10 * (i % 9) - 40;
-    if (i % 3 == 0) scene.camera.projection = Projection::kOrthographic;
-    scene = resolved(scene, source);
-    const Camera camera = resolveCamera(scene, {source.info().grid, false});
-    const int bricks = 1 + i % 4;
-    RankStatistics on, off;
-    const Image<Rgba> skipped = drawAlone(
-        scene, source, camera, {.bricks = bricks, .skip = true, .countSamples = true}, &on);
-    const Image<Rgba> visited = drawAlone(
-        scene, source, camera, {.bricks = bricks, .skip = false, .countSamples = true}, &off);
-    EXPECT_TRUE(std::ranges::equal(skipped.pixels(), visited.pixels())) << "scene " << i;
-    EXPECT_EQ(on.samplesShaded, off.samplesShaded) << "scene " << i;
-    EXPECT_LE(on.samplesVisited, off.samplesVisited) << "scene " << i;
-    EXPECT_EQ(on.samplesInOccupiedCells, on.samplesVisited) << "scene " << i;
-    EXPECT_EQ(off.leaps, 0) << "scene " << i;
-    if (on.samplesVisited < off.samplesVisited) ++skippedSomething;
+  int scenes = 0;
+  for (const int bricks : {1, 4}) {
+    ArraySource source = smoothVolume(gridOf({17 + bricks, 34, 24}, {1, 1.3, 0.7}));
+    const Scene first = resolved(sceneWithStyle("all"), source);
+    node::WorkerOptions options{.bricks = bricks, .skip = true, .countSamples = true};
+    node::Worker skipping{self, first, source, options};
+    options.skip = false;
+    node::Worker visiting{self, first, source, options};
+    for (int round = bricks == 1 ? 0 : 1; round < kScenesOfEachKind; round += 2) {
+      for (const std::string& style : drawnStyles()) {
+        for (const Kind& kind : kKinds) {
+          const Scene scene = resolved(randomScene(style, kind, random), source);
+          skipping.update(scene);
+          visiting.update(scene);
+          const Camera camera = resolveCamera(scene, {source.info().grid, false});
+          RankStatistics on, off;
+          const Image<Rgba> skipped = wholeFrame(skipping.draw(camera, on));
+          const Image<Rgba> visited = wholeFrame(visiting.draw(camera, off));
+          ASSERT_TRUE(std::ranges::equal(skipped.pixels(), visited.pixels())) << "scene " << scenes;
+          EXPECT_EQ(on.samplesShaded, off.samplesShaded) << "scene " << scenes;
+          EXPECT_LE(on.samplesVisited, off.samplesVisited) << "scene " << scenes;
+          EXPECT_EQ(on.samplesInOccupiedCells, on.samplesVisited) << "scene " << scenes;
+          EXPECT_EQ(off.leaps, 0) << "scene " << scenes;
+          if (on.samplesVisited < off.samplesVisited) ++skippedSomething;
+          ++scenes;
+        }
+      }
+    }
   }
-  EXPECT_GT(skippedSomething, 12);
+  EXPECT_GE(scenes, 200);
+  EXPECT_GT(skippedSomething, scenes / 2);
+}
+
+// Eight bricks in a row, the first of which is enough: what is behind it is not looked at, and the
+// picture changes by no more than the threshold.
+TEST(Skipping, BricksBehindOpaqueOnesAreNotVisited) {
+  ArraySource source{gridOf({17, 17, 129}), [](glm::ivec3) { return 0.5f; }};
+  Scene scene = sceneWithStyle("plain");
+  scene.layers[0].transferFunction = {{{0, {200, 90, 10}, 0.3}, {1, {200, 90, 10}, 0.3}}, {}};
+  scene.camera = {.azimuthDeg = 0, .elevationDeg = 0, .projection = Projection::kOrthographic};
+  scene = resolved(scene, source);
+  const Camera camera = resolveCamera(scene, {source.info().grid, false});
+  const Image<Rgba> whole = drawAlone(scene, source, camera, {.bricks = 1});
+  RankStatistics all;
+  drawAlone(scene, source, camera, {.bricks = 8, .countSamples = true}, &all);
+  scene.quality.termination = 0.002;
+  RankStatistics alone, behind;
+  drawAlone(scene, source, camera, {.bricks = 1, .countSamples = true}, &alone);
+  const Image<Rgba> image =
+      drawAlone(scene, source, camera, {.bricks = 8, .countSamples = true}, &behind);
+  // One unit length takes 30 %: 0.7^18 < 0.002, so rays end within 19 of the 128 voxels.
+  EXPECT_LE(behind.samplesVisited, all.samplesVisited * 19 / 128);
+  EXPECT_EQ(behind.samplesVisited, alone.samplesVisited);
+  EXPECT_LE(difference(whole, image).largest, scene.quality.termination);
 }
 
 TEST(Skipping, CountingDoesNotChangeThePicture) {
