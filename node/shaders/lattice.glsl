@@ -18,6 +18,11 @@ uniform vec4 clipPlane[CLIP_PLANES];  // keeps dot(xyz, p) + w >= 0
 
 const float kFar = 1e30;
 
+// 1, which the compiler does not know. The driver fetches a uniform anew at each use, eight times over,
+// in some twenty instructions, and moves nothing out of loops; a plain copy made before the loop over
+// samples is undone by the compiler, a product is not.
+uniform float one;
+
 struct Ray {
   vec3 origin;      // on plane 0
   vec3 along;       // per plane

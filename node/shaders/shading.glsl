@@ -28,11 +28,12 @@ uniform vec3 lightColours[LIGHTS];
 vec3 lightDirection[LIGHTS];  // world, towards the light
 vec3 lightColour[LIGHTS];     // linear, times intensity
 
-// Uniforms that the loop over samples reads are copied before it: the driver fetches a uniform anew
-// at each use, eight times over, in some twenty instructions.
+// Before the loop over samples (see `one`).
 void prepareLights() {
-  lightDirection = lightDirections;
-  lightColour = lightColours;
+  for (int i = 0; i < LIGHTS; ++i) {
+    lightDirection[i] = one * lightDirections[i];
+    lightColour[i] = one * lightColours[i];
+  }
 }
 
 const int kNormalOutward = 0, kNormalInward = 1, kNormalFacing = 2;

@@ -5,7 +5,7 @@
 
 uniform isampler3D distanceMap;  // filters to the nearest: texelFetch would cost twice as much
 uniform vec3 cellOffset;         // added to a position: voxels from the map's corner
-uniform bool skipEmpty;          // false: visit everything (for comparison)
+uniform float skipEmpty;         // 0: visit everything (for comparison), else 1
 
 const float kCell = 4.0;   // kMacrocellSize in macrocells.hpp
 // Planes; far above the rounding of an exit, and at most 1e-3 voxels, by how much the ranges of
@@ -20,7 +20,7 @@ struct SkipState {
   vec3 lastCell;       // of the map
   vec3 perMap;         // 1 / cells of the map
   float margin;        // exitMargin
-  bool leaps;          // skipEmpty
+  float leaps;         // skipEmpty: above 0 if so
   int knownUntil;      // first segment of which nothing is known
   bool occupied;       // of the segments before knownUntil
   float emptyUntil;    // planes: the ray crosses nothing visible before
@@ -37,8 +37,8 @@ SkipState beginSkipping(Ray ray, int j) {
   vec3 cells = vec3(textureSize(distanceMap, 0));
   state.lastCell = cells - 1.0;
   state.perMap = 1.0 / cells;
-  state.margin = exitMargin;
-  state.leaps = skipEmpty;
+  state.margin = one * exitMargin;
+  state.leaps = one * skipEmpty;
   state.knownUntil = j;
   state.occupied = false;
   state.emptyUntil = segmentBegin(ray, j);
@@ -71,7 +71,7 @@ void lookAhead(Ray ray, inout int j, inout SkipState state) {
   int begunBefore = max(j + 1, int(ceil(exit)));
   int emptyBefore = int(floor(exit + state.margin));  // the segment in which the exit lies
   state.knownUntil = state.occupied ? begunBefore : emptyBefore;
-  j = state.occupied || !state.leaps ? j : emptyBefore;
+  j = state.occupied || state.leaps <= 0.0 ? j : emptyBefore;
 }
 #else
 // A segment needs a visit if its sample is in a macrocell that may be visible.
@@ -80,6 +80,6 @@ void lookAhead(Ray ray, inout int j, inout SkipState state) {
   float exit = min(macrocellExit(state, where), ray.end + 1.0);
   // Samples lie at j + 1/2, or before it in the last segment: all below the exit share this box.
   state.knownUntil = max(j + 1, int(ceil(exit - state.margin - 0.5)));
-  j = state.occupied || !state.leaps ? j : state.knownUntil;
+  j = state.occupied || state.leaps <= 0.0 ? j : state.knownUntil;
 }
 #endif

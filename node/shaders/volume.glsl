@@ -24,7 +24,7 @@ vec2 volumeLookUp(vec3 coordinate) { return vec2(texture(volume, coordinate).r, 
 
 vec3 texelSize;  // textureScale, kept over the loop
 
-void prepareVolume() { texelSize = textureScale; }
+void prepareVolume() { texelSize = one * textureScale; }
 
 // Central differences of the trilinear field at +-1 voxel, per voxel, not halved. Zero where a tap
 // is not valid. Edges of the texture clamp, which at the volume's border is the definition.

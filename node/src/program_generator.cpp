@@ -44,7 +44,8 @@ class CurveSet {
     const std::string kept = "kept_" + uniform;
     declarations_ +=
         fmt::format("uniform vec3 {0}[{2}];\nvec3 {1}[{2}];\n", uniform, kept, curve.points.size());
-    prepare_ += fmt::format("  {} = {};\n", kept, uniform);
+    prepare_ += fmt::format("  for (int i = 0; i < {0}; ++i) {1}[i] = one * {2}[i];\n",
+                            curve.points.size(), kept, uniform);
     cases_ += fmt::format("  if (number == {}) {{\n    y = {}[0].x;\n", number, kept);
     for (std::size_t i = 1; i < curve.points.size(); ++i)
       cases_ +=
@@ -75,13 +76,13 @@ struct ParameterCode {
   std::string statements;
 };
 
-/// Declares a uniform and the copy of it that the loop over samples reads (see prepareLights() in
-/// shading.glsl); returns the copy's name. `prepare` gets the statement that copies.
+/// Declares a uniform and the copy of it that the loop over samples reads (see `one` in
+/// lattice.glsl); returns the copy's name. `prepare` gets the statement that copies.
 std::string keepUniform(std::string_view type, const std::string& uniform,
                         std::string& declarations, std::string& prepare) {
   std::string kept = "kept_" + uniform;
   declarations += fmt::format("uniform {0} {1};\n{0} {2};\n", type, uniform, kept);
-  prepare += fmt::format("  {} = {};\n", kept, uniform);
+  prepare += fmt::format("  {} = one * {};\n", kept, uniform);
   return kept;
 }
 
@@ -124,7 +125,7 @@ class LayerCode {
     const Layer& layer = scene_.layers[i];
     uniforms_ += fmt::format("uniform sampler1DArray {0};\nuniform vec4 {1};\nvec4 scale{2};\n",
                              transferUniform(i), transferScaleUniform(i), i);
-    prepare_ += fmt::format("  scale{} = {};\n", i, transferScaleUniform(i));
+    prepare_ += fmt::format("  scale{} = one * {};\n", i, transferScaleUniform(i));
     uniforms_ += fmt::format("float extinction{};\n", i);  // of the segment classified last
     if (scene_.quality.preintegrated) {
       addSegmentClass(i);

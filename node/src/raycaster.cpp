@@ -131,7 +131,8 @@ void Raycaster::setSceneUniforms() {
   program_->set("volume", static_cast<int>(kVolumeUnit));
   program_->set("distanceMap", static_cast<int>(kDistanceUnit));
   program_->set("frame", static_cast<int>(kFrameUnit));
-  program_->set("skipEmpty", options_.skip ? 1 : 0);
+  program_->set("skipEmpty", options_.skip ? 1.0f : 0.0f);
+  program_->set("one", 1.0f);
   program_->set("termination", static_cast<float>(scene_.quality.termination));
   const Box box = grid_.boxIndex();
   const glm::dvec3 centre = grid_.centreIndex();
