@@ -4,3 +4,4 @@ burin_library(reference
           src/reference_ray.cpp src/reference_volume.cpp
   PUBLIC burin::scene burin::volumes
   PRIVATE Threads::Threads)
+burin_unity(burin_reference)

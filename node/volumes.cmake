@@ -10,3 +10,6 @@ burin_library(volumes
           src/survey.cpp src/range_survey.cpp src/gradient_survey.cpp
   PUBLIC burin::scene burin::mpi
   PRIVATE Teem::teem NIFTI::nifti2 ZLIB::ZLIB)
+burin_unity(burin_volumes)
+# It has a readHeader of its own, as nrrd_reader.cpp does.
+set_source_files_properties(src/nifti_reader.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)

@@ -14,15 +14,21 @@ endfunction()
 
 # burin_add_mpi_test(NAME RANKS 1 2 3 … SOURCES … LIBRARIES … [LABELS …] [TIMEOUT seconds]): a
 # GoogleTest program with the MPI main of tests/support, one CTest entry per rank count. Every rank
-# runs every case; a failure on any rank fails the entry. It counts as two processors, so that a
-# machine with two cores runs one at a time.
+# runs every case; a failure on any rank fails the entry. Several ranks count as two processors, so that
+# a machine with two cores runs one such test at a time; one rank, though it may draw with more threads,
+# as one, because no test keeps them busy.
 function(burin_add_mpi_test name)
   cmake_parse_arguments(arg "" "TIMEOUT" "RANKS;SOURCES;LIBRARIES;LABELS" ${ARGN})
   burin_test_program(${name} SOURCES ${arg_SOURCES} LABELS ${arg_LABELS}
                      LIBRARIES ${arg_LIBRARIES} burin::test_mpi_main GTest::gtest)
   foreach(ranks ${arg_RANKS})
     add_test(NAME ${name}_${ranks} COMMAND ${BURIN_MPIRUN} -n ${ranks} $<TARGET_FILE:${name}>)
-    burin_set_test(${name}_${ranks} TIMEOUT ${arg_TIMEOUT} PROCESSORS 2 LABELS ${arg_LABELS} mpi)
+    set(processors 2)
+    if(ranks EQUAL 1)
+      set(processors 1)
+    endif()
+    burin_set_test(${name}_${ranks} TIMEOUT ${arg_TIMEOUT} PROCESSORS ${processors}
+                   LABELS ${arg_LABELS} mpi)
   endforeach()
 endfunction()
 
@@ -35,6 +41,9 @@ function(burin_test_program name)
     ${arg_LIBRARIES} burin::test_support GTest::gmock burin_warnings)
   burin_use_headers(${name} burin_test_headers)
   burin_test_options(${name})
+  if(NOT compositor IN_LIST arg_LABELS)  # whose templates are what such a test spends its time in
+    target_compile_options(${name} PRIVATE ${BURIN_CHECKS_AS_CALLS})
+  endif()
   foreach(subset sanitize threads)
     if(subset IN_LIST arg_LABELS)
       add_dependencies(${subset}_tests ${name})
@@ -43,11 +52,12 @@ function(burin_test_program name)
 endfunction()
 
 # burin_set_test(NAME [TIMEOUT seconds] [PROCESSORS n] [LABELS …]): what every CTest entry needs:
-# a time-out (60 seconds if none is given) and the environment.
+# a time-out (60 seconds if none is given) and the environment. Those that may take longest begin first,
+# lest one of them be alone at the end.
 function(burin_set_test name)
   cmake_parse_arguments(arg "" "TIMEOUT;PROCESSORS" "LABELS" TIMEOUT 60 PROCESSORS 1 ${ARGN})
-  set_tests_properties(${name} PROPERTIES TIMEOUT ${arg_TIMEOUT} PROCESSORS ${arg_PROCESSORS}
-    LABELS "${arg_LABELS}" ENVIRONMENT "${BURIN_TEST_ENVIRONMENT}")
+  set_tests_properties(${name} PROPERTIES TIMEOUT ${arg_TIMEOUT} COST ${arg_TIMEOUT}
+    PROCESSORS ${arg_PROCESSORS} LABELS "${arg_LABELS}" ENVIRONMENT "${BURIN_TEST_ENVIRONMENT}")
 endfunction()
 
 # Tests are compiled in less time rather than run in less: what they test has its full optimisation.

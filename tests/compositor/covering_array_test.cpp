@@ -1,6 +1,7 @@
 // All pairs of pixel types, schedules, transfers, ranks, sizes and active fractions.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
 
 #include "all_pairs.hpp"
