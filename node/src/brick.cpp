@@ -14,7 +14,9 @@ IndexBox storedVoxels(const IndexBox& cells, int ghostLayers, const VolumeGrid& 
 Brick::Brick(BrickId id, const IndexBox& cells, int ghostLayers, const VolumeInfo& volume,
              const ValueScale& scale)
     : id_{id},
+      grid_{volume.grid},
       cells_{cells},
+      ghostLayers_{ghostLayers},
       texture_{burin::node::storedVoxels(cells, ghostLayers, volume.grid), volume.type, scale},
       macrocells_{texture_.storedVoxels()},
       distances_{makeTexture(GL_TEXTURE_3D)} {
@@ -30,10 +32,14 @@ void Brick::upload(const IndexBox& box, std::span<const std::byte> voxels, Stagi
   macrocells_.add(box, staging.values);
 }
 
-void Brick::classify(const VisibleValues& visible) {
-  const std::vector<std::uint8_t> marks =
+void Brick::classify(const VisibleValues& visible, std::span<const glm::vec4> clipPlanes) {
+  std::vector<std::uint8_t> marks =
       macrocells_.mark([&](float lowest, float highest) { return visible.any(lowest, highest); });
-  visibleCells_ = intersection(macrocells_.boxOf(marks), cells_);
+  clearClipped(marks, macrocells_.cubes(), clipPlanes, grid_);
+  const IndexBox marked = macrocells_.boxOf(marks);
+  visibleCells_ = marked.empty()
+                      ? marked
+                      : intersection({marked.lo - ghostLayers_, marked.hi + ghostLayers_}, cells_);
   const glm::ivec3 size = macrocells_.size();
   const std::vector<std::int8_t> distances = signedChessboardDistance(marks, size);
   gl().PixelStorei(GL_UNPACK_ALIGNMENT, 1);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "brick_texture.hpp"
 #include "burin/common/brick_tree.hpp"
 #include "macrocells.hpp"
@@ -20,8 +22,9 @@ class Brick {
   /// After the last upload.
   void finishLoading() { macrocells_.finish(); }
 
-  /// Distance map and visible cells for what the scene shows now.
-  void classify(const VisibleValues& visible);
+  /// Distance map and visible cells for what the scene shows now. `clipPlanes`: as of
+  /// centredClipPlanes().
+  void classify(const VisibleValues& visible, std::span<const glm::vec4> clipPlanes);
 
   BrickId id() const { return id_; }
   const IndexBox& cells() const { return cells_; }
@@ -30,13 +33,16 @@ class Brick {
   GLuint distanceTexture() const { return distances_.id(); }
   /// First voxel of the distance map, global index.
   glm::ivec3 mapOrigin() const { return macrocells_.origin(); }
-  /// Own cells that may be visible; empty if the brick shows nothing.
+  /// Own cells in which segments may show something; empty if the brick shows nothing. A segment
+  /// reaches as far beyond the cell of its middle as there are ghost layers, at most.
   const IndexBox& visibleCells() const { return visibleCells_; }
   std::size_t residentBytes() const;
 
  private:
   BrickId id_;
+  VolumeGrid grid_;
   IndexBox cells_;
+  int ghostLayers_;
   BrickTexture texture_;
   Macrocells macrocells_;
   Texture distances_;

@@ -1,7 +1,6 @@
 #include "macrocells.hpp"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 
 #include "burin/common/error.hpp"
@@ -10,7 +9,6 @@ namespace burin::node {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr float kWidening = 0x1p-8f;
 
 int floorDivide(int a, int b) {
   return a >= 0 ? a / b : -((-a + b - 1) / b);
@@ -26,24 +24,6 @@ Span cellsOfVoxel(int v, int firstCell, int size) {
   return {std::max(before - firstCell, 0), std::min(cell - firstCell, size - 1)};
 }
 
-/// Running minimum (or maximum) over ±1 along one axis of a grid.
-template <typename Pick>
-void spreadAxis(std::vector<float>& values, const glm::ivec3& size, int axis, Pick pick) {
-  const std::array<std::size_t, 3> stride{
-      1, static_cast<std::size_t>(size.x),
-      static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y)};
-  const std::vector<float> old = values;
-  const std::size_t step = stride[static_cast<std::size_t>(axis)];
-  std::size_t i = 0;
-  glm::ivec3 at{0};
-  for (at.z = 0; at.z < size.z; ++at.z)
-    for (at.y = 0; at.y < size.y; ++at.y)
-      for (at.x = 0; at.x < size.x; ++at.x, ++i) {
-        if (at[axis] > 0) values[i] = pick(values[i], old[i - step]);
-        if (at[axis] + 1 < size[axis]) values[i] = pick(values[i], old[i + step]);
-      }
-}
-
 }  // namespace
 
 Macrocells::Macrocells(const IndexBox& storedVoxels) {
@@ -53,9 +33,7 @@ Macrocells::Macrocells(const IndexBox& storedVoxels) {
     const int lastCell = std::max(storedVoxels.hi[axis] - 2, storedVoxels.lo[axis]);
     size_[axis] = floorDivide(lastCell, kMacrocellSize) - firstCell_[axis] + 1;
   }
-  const std::size_t count = index(0, 0, size_.z);
-  lowest_.assign(count, kInfinity);
-  highest_.assign(count, -kInfinity);
+  ranges_ = ValueRanges{size_};
 }
 
 std::size_t Macrocells::index(int x, int y, int z) const {
@@ -92,25 +70,11 @@ void Macrocells::add(const IndexBox& box, std::span<const float> stored) {
         for (int j = cy.first; j <= cy.last; ++j) {
           const std::size_t first = index(0, j, k);
           for (std::size_t i = 0; i < rowLowest.size(); ++i) {
-            lowest_[first + i] = std::min(lowest_[first + i], rowLowest[i]);
-            highest_[first + i] = std::max(highest_[first + i], rowHighest[i]);
+            ranges_.lowest[first + i] = std::min(ranges_.lowest[first + i], rowLowest[i]);
+            ranges_.highest[first + i] = std::max(ranges_.highest[first + i], rowHighest[i]);
           }
         }
     }
-  }
-}
-
-void Macrocells::finish() {
-  std::vector<float> lowestAround = lowest_;
-  std::vector<float> highestAround = highest_;
-  for (int axis = 0; axis < 3; ++axis) {
-    spreadAxis(lowestAround, size_, axis, [](float a, float b) { return std::min(a, b); });
-    spreadAxis(highestAround, size_, axis, [](float a, float b) { return std::max(a, b); });
-  }
-  for (std::size_t i = 0; i < lowest_.size(); ++i) {
-    if (lowest_[i] > highest_[i]) continue;  // no finite voxel, shared faces included
-    lowest_[i] -= kWidening * (lowest_[i] - lowestAround[i]);
-    highest_[i] += kWidening * (highestAround[i] - highest_[i]);
   }
 }
 

@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "burin/common/geometry.hpp"
+#include "clip_planes.hpp"
+#include "value_ranges.hpp"
 
 namespace burin::node {
 
@@ -22,23 +24,19 @@ class Macrocells {
   /// `stored`: values of the voxel box `box` in [0, 1], x fastest; NaN counts as nothing.
   void add(const IndexBox& box, std::span<const float> stored);
 
-  /// Widens every range towards its neighbours' by 2^-8 of the difference: a look-up at a position
-  /// that rounds across a macrocell's face (by at most 2048 * 2^-23 voxel in the texture unit)
-  /// reads a value outside the macrocell's own range by at most that.
-  void finish();
+  /// Widens the ranges. After the last add().
+  void finish() { ranges_.widen(); }
 
   glm::ivec3 size() const { return size_; }
   /// First voxel of the first macrocell, global index.
   glm::ivec3 origin() const { return kMacrocellSize * firstCell_; }
-  std::size_t bytes() const { return (lowest_.size() + highest_.size()) * sizeof(float); }
+  CubeGrid cubes() const { return {origin(), size_, kMacrocellSize}; }
+  std::size_t bytes() const { return ranges_.bytes(); }
 
   /// Per macrocell 1 if visible(lowest, highest) says so of its range; x fastest.
   template <typename Visible>
   std::vector<std::uint8_t> mark(const Visible& visible) const {
-    std::vector<std::uint8_t> marks(lowest_.size());
-    for (std::size_t i = 0; i < marks.size(); ++i)
-      marks[i] = lowest_[i] <= highest_[i] && visible(lowest_[i], highest_[i]) ? 1 : 0;
-    return marks;
+    return ranges_.mark(visible);
   }
 
   /// Cells (global) of the box around the marked macrocells; empty if none.
@@ -49,8 +47,7 @@ class Macrocells {
 
   glm::ivec3 firstCell_{0};
   glm::ivec3 size_{0};
-  std::vector<float> lowest_;
-  std::vector<float> highest_;
+  ValueRanges ranges_;
 };
 
 }  // namespace burin::node

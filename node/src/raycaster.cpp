@@ -6,6 +6,7 @@
 
 #include "burin/common/footprint.hpp"
 #include "burin/common/sample_lattice.hpp"
+#include "clip_planes.hpp"
 
 namespace burin::node {
 namespace {
@@ -139,14 +140,7 @@ void Raycaster::setSceneUniforms() {
   program_->set("boxLo", toFloat(box.lo - centre));
   program_->set("boxHi", toFloat(box.hi - centre));
 
-  std::vector<glm::vec4> planes;
-  for (const ClipPlane& plane : scene_.clip) {
-    // n·x + d with x = centreWorld + M p: the plane in centred index space, scaled to unit length.
-    const glm::dvec3 normal = glm::transpose(grid_.indexToWorld()) * plane.normal;
-    const double offset = glm::dot(plane.normal, grid_.centreWorld()) + plane.offset;
-    planes.emplace_back(glm::vec4{glm::dvec4{normal, offset} / glm::length(normal)});
-  }
-  program_->set("clipPlane", planes);
+  program_->set("clipPlane", centredClipPlanes(scene_, grid_));
 
   // Differences of stored values at ±1 voxel → world gradient over gradientUnit().
   program_->set("differencesToGradient", glm::mat3{glm::transpose(grid_.worldToIndex()) *

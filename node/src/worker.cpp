@@ -8,6 +8,7 @@
 #include "burin/common/error.hpp"
 #include "burin/node/offscreen_context.hpp"
 #include "burin/node/thread_share.hpp"
+#include "clip_planes.hpp"
 #include "cost_estimate.hpp"
 #include "raycaster.hpp"
 
@@ -146,7 +147,8 @@ void Worker::State::classify() {
   if (bricks.empty()) return;
   const VisibleValues visible{scene, raycaster->transferTables(),
                               valueScaleOf(source.info().type, survey)};
-  for (Brick& brick : bricks) brick.classify(visible);
+  const std::vector<glm::vec4> planes = centredClipPlanes(scene, source.info().grid);
+  for (Brick& brick : bricks) brick.classify(visible, planes);
 }
 
 Worker::Worker(const Communicator& comm, const Scene& scene, BrickSource& source,
@@ -159,15 +161,16 @@ void Worker::update(const Scene& scene) {
   State& state = *state_;
   const bool mustLoad = ghostLayers(scene, state.options) > state.ghosts ||
                         (gradientNeeded(scene) && !state.hasGradients) || state.isSplitBadly(scene);
-  const bool sameValues = std::ranges::equal(state.scene.layers, scene.layers, {},
-                                             &Layer::transferFunction, &Layer::transferFunction);
+  const bool sameShown = state.scene.clip == scene.clip &&
+                         std::ranges::equal(state.scene.layers, scene.layers, {},
+                                            &Layer::transferFunction, &Layer::transferFunction);
   const Scene before = std::exchange(state.scene, scene);
   if (mustLoad) return state.load();
   const auto apply = [&] {
     if (!state.raycaster) return;
     state.context->makeCurrent();
     state.raycaster->setScene(state.scene);
-    if (!sameValues) state.classify();
+    if (!sameShown) state.classify();
   };
   try {
     agree(state.comm, "changing the scene", attempt(apply));

@@ -16,6 +16,7 @@ target_sources(stability_test PRIVATE stability_views_test.cpp)
 burin_add_renderer_test(voxel_types_test RANKS 1 TIMEOUT 120)
 burin_add_renderer_test(program_generator_test RANKS 1 TIMEOUT 120)
 burin_add_renderer_test(macrocells_test RANKS 1)
+burin_add_renderer_test(clip_planes_test RANKS 1)
 burin_add_renderer_test(transfer_table_test RANKS 1)
 burin_add_renderer_test(cost_estimate_test RANKS 1 3)
 

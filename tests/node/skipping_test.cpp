@@ -120,6 +120,90 @@ TEST(Skipping, BricksBehindOpaqueOnesAreNotVisited) {
   EXPECT_LE(difference(whole, image).largest, scene.quality.termination);
 }
 
+/// A plane through the middle region of a volume, of any direction.
+ClipPlane randomPlane(std::mt19937& random, const VolumeGrid& grid) {
+  std::uniform_real_distribution<double> signedUnit{-1, 1};
+  ClipPlane plane;
+  plane.normal = {signedUnit(random), signedUnit(random), signedUnit(random)};
+  const double height = 0.5 * signedUnit(random) * grid.boundingRadius();
+  plane.offset = -glm::dot(plane.normal, grid.centreWorld()) - height * glm::length(plane.normal);
+  return plane;
+}
+
+TEST(Skipping, ClippedCellsAreLeaptOverBitForBit) {
+  std::mt19937 random{17};
+  const std::vector<std::string> styles = drawnStyles();
+  const Communicator self{MPI_COMM_SELF};
+  for (int i = 0; i < 9; ++i) {
+    // Everything shows but what is clipped, so that clipping alone saves samples.
+    ArraySource source = smoothVolume(gridOf({30 + i, 41 - i, i == 3 ? 1 : 35}, {1, 1.3, 0.7}));
+    Scene scene = sceneWithStyle(styles[static_cast<std::size_t>(i) % styles.size()]);
+    for (TransferPoint& point : scene.layers[0].transferFunction.points)
+      point.opacity = std::max(point.opacity, 0.01);
+    scene.quality.stepVoxels = i % 5 == 0 ? 3 : 0.5;
+    scene.quality.preintegrated = i % 2 == 0;
+    if (i % 3 == 0) scene.camera.projection = Projection::kOrthographic;
+    scene.camera.verticalFovDeg = i % 4 == 1 ? 120 : 30;
+    scene.camera.azimuthDeg = 50 * i;
+    scene = resolved(scene, source);
+    const Camera camera = resolveCamera(scene, {source.info().grid, false});
+    const int bricks = 1 + i % 4;
+    // The planes come and go as edits.
+    node::Worker on{self, scene, source, {.bricks = bricks, .skip = true, .countSamples = true}};
+    node::Worker off{self, scene, source, {.bricks = bricks, .skip = false, .countSamples = true}};
+    for (int planes = 1; planes <= 3; ++planes) {
+      scene.clip.push_back(randomPlane(random, source.info().grid));
+      if (planes == 3) scene.clip.erase(scene.clip.begin());
+      on.update(scene);
+      off.update(scene);
+      RankStatistics counted, all;
+      const Image<Rgba> skipped = wholeFrame(on.draw(camera, counted));
+      const Image<Rgba> visited = wholeFrame(off.draw(camera, all));
+      EXPECT_TRUE(std::ranges::equal(skipped.pixels(), visited.pixels())) << i << " " << planes;
+      EXPECT_EQ(counted.samplesShaded, all.samplesShaded) << i << " " << planes;
+    }
+  }
+}
+
+TEST(Skipping, ClippedVolumeDrawsNothingAndAHalfHasItsFootprint) {
+  ArraySource source{gridOf({41, 41, 41}), [](glm::ivec3) { return 0.5f; }};
+  Scene scene = sceneWithStyle("plain");
+  scene.layers[0].transferFunction = {{{0, {255, 255, 255}, 0.1}, {1, {255, 255, 255}, 0.1}}, {}};
+  scene.camera = {.azimuthDeg = 0, .elevationDeg = 0, .projection = Projection::kOrthographic};
+  scene = resolved(scene, source);
+  const Camera camera = resolveCamera(scene, {source.info().grid, false});
+  const Communicator self{MPI_COMM_SELF};
+  node::Worker worker{self, scene, source, {}};
+  RankStatistics statistics;
+  const int whole = worker.draw(camera, statistics).active.width();
+  scene.clip = {{{2, 0, 0}, -2 * 24.0}};  // x >= 24 of 0 … 40: 16 cells and a macrocell's rounding
+  worker.update(scene);
+  const int part = worker.draw(camera, statistics).active.width();
+  EXPECT_GE(part, whole * 16 / 40);
+  EXPECT_LE(part, whole * 20 / 40 + 4);
+  scene.clip = {{{0, 1, 0}, -41}};
+  worker.update(scene);
+  EXPECT_TRUE(worker.draw(camera, statistics).active.empty());
+}
+
+TEST(Skipping, SegmentsWhoseEndsAloneSeeSomethingAreDrawn) {
+  // All that shows lies in the cells right of a split; long segments with their middle left of it
+  // reach into them.
+  for (const int edge : {20, 21, 22, 23, 24}) {
+    ArraySource source{gridOf({41, 17, 17}),
+                       [&](glm::ivec3 i) { return i.x > edge ? 1.0f : 0.0f; }};
+    Scene scene = sceneWithStyle("plain");
+    scene.layers[0].transferFunction = {{{0.5, {255, 0, 0}, 0}, {1, {255, 0, 0}, 0.3}}, {}};
+    scene.quality.stepVoxels = 3.7;
+    scene.camera.azimuthDeg = 90;
+    scene = resolved(scene, source);
+    const Camera camera = resolveCamera(scene, {source.info().grid, false});
+    const auto on = drawAlone(scene, source, camera, {.bricks = 4, .skip = true});
+    const auto off = drawAlone(scene, source, camera, {.bricks = 4, .skip = false});
+    EXPECT_TRUE(std::ranges::equal(on.pixels(), off.pixels())) << edge;
+  }
+}
+
 TEST(Skipping, CountingDoesNotChangeThePicture) {
   ArraySource source = smoothVolume(gridOf({32, 32, 32}));
   const Scene scene = resolved(sceneWithStyle("all"), source);
