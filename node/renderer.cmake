@@ -27,7 +27,7 @@ burin_library(node
   SOURCES src/gl.cpp src/osmesa_context.cpp src/offscreen_context.cpp src/thread_share.cpp src/shader_source.cpp
           src/gl_program.cpp src/program_generator.cpp src/transfer_integral.cpp src/transfer_table.cpp
           src/visible_values.cpp src/value_scale.cpp src/value_ranges.cpp src/clip_planes.cpp
-          src/macrocells.cpp src/chessboard_distance.cpp
+          src/visible_blocks.cpp src/macrocells.cpp src/chessboard_distance.cpp
           src/step_map.cpp src/brick_texture.cpp src/brick.cpp src/cost_estimate.cpp
           src/raycaster.cpp src/worker.cpp ${embedded}
   PUBLIC burin::volumes burin::compositor

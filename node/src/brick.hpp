@@ -13,8 +13,8 @@ namespace burin::node {
 /// transfer functions can show.
 class Brick {
  public:
-  /// `cells`: the brick's own cells; `ghostLayers`: voxels loaded beyond them, clamped at the
-  /// volume.
+  /// `cells`: those of the tree's brick that are stored and drawn; the others show nothing.
+  /// `ghostLayers`: voxels loaded beyond them, clamped at the volume.
   Brick(BrickId id, const IndexBox& cells, int ghostLayers, const VolumeInfo& volume,
         const ValueScale& scale);
 

@@ -2,22 +2,14 @@
 
 #include <algorithm>
 
+#include "burin/common/error.hpp"
+
 namespace burin::node {
-namespace {
 
-constexpr int kBlock = BlockRanges::kBlockCells;
-
-bool visible(const Scene& scene, double lowest, double highest) {
-  return std::ranges::any_of(scene.layers, [&](const Layer& layer) {
-    const TransferFunction& function = layer.transferFunction;
-    return function.largestExtinction(lowest, highest, function.opacityUnitLength.value()) > 0;
-  });
-}
-
-}  // namespace
-
-CostEstimate::CostEstimate(const BlockRanges& blocks, const VolumeGrid& grid, const Scene& scene)
-    : cells_{grid.cells()}, blocks_{blocks.blocks} {
+CostEstimate::CostEstimate(std::span<const std::uint8_t> marks, const CubeGrid& blocks,
+                           const VolumeGrid& grid)
+    : cells_{grid.cells()}, blocks_{blocks.size}, blockCells_{blocks.cubeCells} {
+  BURIN_CHECK_EQ(marks.size(), (IndexBox{glm::ivec3{0}, blocks_}.count()));
   const glm::ivec3 size = blocks_ + 1;
   sums_.assign(IndexBox{glm::ivec3{0}, size}.count(), 0.0);
   const auto at = [&](int x, int y, int z) -> double& {
@@ -26,15 +18,13 @@ CostEstimate::CostEstimate(const BlockRanges& blocks, const VolumeGrid& grid, co
                      static_cast<std::size_t>(size.x) +
                  static_cast<std::size_t>(x)];
   };
+  std::size_t i = 0;
   for (int z = 0; z < blocks_.z; ++z)
     for (int y = 0; y < blocks_.y; ++y)
-      for (int x = 0; x < blocks_.x; ++x) {
+      for (int x = 0; x < blocks_.x; ++x, ++i) {
         const glm::ivec3 block{x, y, z};
-        const std::size_t i = blocks.index(block);
-        const glm::dvec3 extent = glm::min(cells_ - kBlock * block, glm::ivec3{kBlock});
-        const bool shows = blocks.lowest[i] <= blocks.highest[i] &&
-                           visible(scene, double{blocks.lowest[i]}, double{blocks.highest[i]});
-        const double cost = extent.x * extent.y * extent.z * (shows ? 1.0 : kEmptyCost);
+        const glm::dvec3 extent = glm::min(cells_ - blockCells_ * block, glm::ivec3{blockCells_});
+        const double cost = extent.x * extent.y * extent.z * (marks[i] != 0 ? 1.0 : kEmptyCost);
         at(x + 1, y + 1, z + 1) = cost + at(x, y + 1, z + 1) + at(x + 1, y, z + 1) +
                                   at(x + 1, y + 1, z) - at(x, y, z + 1) - at(x, y + 1, z) -
                                   at(x + 1, y, z) + at(x, y, z);
@@ -55,9 +45,9 @@ double CostEstimate::below(const glm::ivec3& corner) const {
   glm::ivec3 block;
   glm::dvec3 part;
   for (int axis = 0; axis < 3; ++axis) {
-    block[axis] = std::min(corner[axis] / kBlock, blocks_[axis] - 1);
-    const int extent = std::min(kBlock, cells_[axis] - kBlock * block[axis]);
-    part[axis] = static_cast<double>(corner[axis] - kBlock * block[axis]) / extent;
+    block[axis] = std::min(corner[axis] / blockCells_, blocks_[axis] - 1);
+    const int extent = std::min(blockCells_, cells_[axis] - blockCells_ * block[axis]);
+    part[axis] = static_cast<double>(corner[axis] - blockCells_ * block[axis]) / extent;
   }
   double sum = 0;
   for (int k = 0; k < 8; ++k) {

@@ -7,6 +7,7 @@
 #include "burin/common/footprint.hpp"
 #include "burin/common/sample_lattice.hpp"
 #include "clip_planes.hpp"
+#include "visible_values.hpp"
 
 namespace burin::node {
 namespace {
@@ -19,15 +20,6 @@ constexpr GLuint kFirstTransferUnit = 3;
 
 glm::vec3 toFloat(const glm::dvec3& v) {
   return glm::vec3{v};
-}
-
-std::vector<TransferTable> makeTables(const Scene& scene, const ValueScale& scale) {
-  std::vector<TransferTable> tables;
-  for (const Layer& layer : scene.layers)
-    tables.push_back(makeTransferTable(layer.transferFunction,
-                                       layer.transferFunction.opacityUnitLength.value(),
-                                       scale.lowest, scale.highest));
-  return tables;
 }
 
 void setLookUp(const Texture& texture, GLint filter) {
@@ -116,7 +108,7 @@ void Raycaster::setScene(const Scene& scene) {
     known = programs_.try_emplace(source.text, vertexSource(), source).first;
   program_ = &known->second;
   if (!tablesStand) {
-    std::vector<TransferTable> tables = makeTables(scene, scale_);
+    std::vector<TransferTable> tables = transferTables(scene, scale_);
     std::vector<Texture> textures;
     for (const TransferTable& table : tables)
       std::ranges::move(uploadTransferFunction(table, scene.quality.preintegrated),

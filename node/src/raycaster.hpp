@@ -41,8 +41,6 @@ class Raycaster {
   /// compiles nothing. If it throws, the scene before stays.
   void setScene(const Scene& scene);
 
-  std::span<const TransferTable> transferTables() const { return tables_; }
-
   /// Draws `bricks`, given front to back, blending each behind the ones before it. Adds the sample
   /// counters to `statistics` if they are counted. `room(n)`: where n pixels go. `steps` replaces
   /// the scene's step if given.

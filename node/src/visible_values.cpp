@@ -23,6 +23,15 @@ float above(double x) {
 
 }  // namespace
 
+std::vector<TransferTable> transferTables(const Scene& scene, const ValueScale& scale) {
+  std::vector<TransferTable> tables;
+  for (const Layer& layer : scene.layers)
+    tables.push_back(makeTransferTable(layer.transferFunction,
+                                       layer.transferFunction.opacityUnitLength.value(),
+                                       scale.lowest, scale.highest));
+  return tables;
+}
+
 VisibleValues::VisibleValues(const Scene& scene, std::span<const TransferTable> tables,
                              const ValueScale& scale) {
   for (std::size_t i = 0; i < tables.size(); ++i) {

@@ -9,11 +9,15 @@
 
 namespace burin::node {
 
+/// One table per layer of the scene, over the volume's values.
+std::vector<TransferTable> transferTables(const Scene& scene, const ValueScale& scale);
+
 /// Which stored values any layer of a scene shows: disjoint intervals, so that asking about a range
 /// of values takes no look at the transfer functions' points. Open at ends where the function is 0;
 /// widened elsewhere by one bin of the layer's table, whose look-up may round into the next one.
 class VisibleValues {
  public:
+  VisibleValues() = default;  ///< none
   /// `tables`: one per layer of the scene.
   VisibleValues(const Scene& scene, std::span<const TransferTable> tables, const ValueScale& scale);
 

@@ -11,6 +11,7 @@
 #include "clip_planes.hpp"
 #include "cost_estimate.hpp"
 #include "raycaster.hpp"
+#include "visible_blocks.hpp"
 
 namespace burin::node {
 namespace {
@@ -19,15 +20,14 @@ int ghostLayers(const Scene& scene, const WorkerOptions& options) {
   return options.ghostLayers.value_or(ghostLayersNeeded(scene));
 }
 
-BrickTree partition(const Communicator& comm, const Scene& scene, const VolumeInfo& volume,
-                    const VolumeSurvey& survey, const WorkerOptions& options) {
-  const ValueScale scale = valueScaleOf(volume.type, survey);
-  const int ghosts = ghostLayers(scene, options);
+BrickTree partition(const Communicator& comm, const CostEstimate& cost, int ghosts,
+                    const VolumeInfo& volume, const ValueScale& scale,
+                    const WorkerOptions& options) {
   BrickTree::Request request;
   request.grid = volume.grid;
   request.owners = comm.size() - (options.dedicatedHost ? 1 : 0);
   request.bricks = options.bricks;
-  request.cost = CostEstimate{survey.blocks, volume.grid, scene};
+  request.cost = cost;
   request.tooLarge = [&](const IndexBox& cells) {
     const IndexBox stored = storedVoxels(cells, ghosts, volume.grid);
     const glm::ivec3 size = stored.size();
@@ -61,6 +61,18 @@ void loadBricks(const Communicator& comm, BrickSource& source, std::span<const I
       kSlabBytes);
 }
 
+/// What a scene may show, as far as that is known without voxels: the same on every rank.
+struct Shown {
+  VisibleValues values;
+  std::vector<glm::vec4> clipPlanes;
+  std::vector<std::uint8_t> blocks;  ///< VisibleBlocks::mark()
+};
+
+bool showsTheSame(const Scene& a, const Scene& b) {
+  return a.clip == b.clip && std::ranges::equal(a.layers, b.layers, {}, &Layer::transferFunction,
+                                                &Layer::transferFunction);
+}
+
 }  // namespace
 
 struct Worker::State {
@@ -71,11 +83,16 @@ struct Worker::State {
   Rank firstOwner{0};  ///< rank of owner 0
   VolumeSurvey survey;
   bool hasGradients = false;  ///< the survey's
+  ValueScale scale;
+  VisibleBlocks blocks;
+  Shown shown;  ///< by the scene
   BrickTree tree;
   int ghosts = 0;                           ///< of the bricks loaded
+  std::vector<IndexBox> parts;              ///< by brick: its cells that its owner has loaded
+  std::vector<BrickId> mine;                ///< this rank's bricks
   std::optional<OffscreenContext> context;  ///< before everything that holds GL names
   std::optional<Raycaster> raycaster;
-  std::vector<Brick> bricks;
+  std::vector<Brick> bricks;  ///< of mine, those of which something is loaded
 
   State(const Communicator& givenComm, BrickSource& givenSource, const Scene& givenScene,
         const WorkerOptions& givenOptions)
@@ -85,53 +102,104 @@ struct Worker::State {
         options{givenOptions},
         firstOwner{givenOptions.dedicatedHost ? 1 : 0} {}
 
-  /// The brick of this rank with that id, or nullptr.
+  /// The loaded brick of this rank with that id, or nullptr.
   const Brick* find(BrickId id) const {
     const auto found = std::ranges::find(bricks, id, &Brick::id);
     return found == bricks.end() ? nullptr : &*found;
   }
+  const VolumeGrid& grid() const { return source.info().grid; }
 
-  bool isSplitBadly(const Scene& next) const;
+  Shown whatShows(const Scene& next) const;
+  CostEstimate costOf(const Shown& what) const {
+    return CostEstimate{what.blocks, blocks.cubes(), grid()};
+  }
+  IndexBox neededPart(BrickId brick, const Shown& what, int ghostLayers) const;
+  bool isSplitBadly(const Scene& next, const Shown& what) const;
+  bool isLoaded(const Scene& next, const Shown& what) const;
+  void measure();
   void load();
   void classify();
 };
 
-/// Whether loading bricks anew is worth it: the split leaves one owner twice the mean cost of that
-/// scene, and a new one would take a quarter off that. The same answer on every rank.
-bool Worker::State::isSplitBadly(const Scene& next) const {
-  const VolumeInfo& volume = source.info();
-  const CostEstimate cost{survey.blocks, volume.grid, next};
-  const double now = unevenness(tree, cost);
-  return now > 2 && unevenness(partition(comm, next, volume, survey, options), cost) < 0.75 * now;
+Shown Worker::State::whatShows(const Scene& next) const {
+  Shown what;
+  what.values = VisibleValues{next, transferTables(next, scale), scale};
+  what.clipPlanes = centredClipPlanes(next, grid());
+  what.blocks = blocks.mark(what.values, what.clipPlanes, grid());
+  return what;
 }
 
-/// Collective. Splits the volume for the scene and loads this rank's bricks.
+/// The cells of a brick that a scene can show anything of; not fewer with --skip off, so that both
+/// have the same textures: where a brick's texture ends changes the last bits of its look-ups.
+IndexBox Worker::State::neededPart(BrickId brick, const Shown& what, int ghostLayers) const {
+  const IndexBox& cells = tree.brickCells(brick);
+  return options.wholeBricks ? cells : visiblePart(cells, what.blocks, blocks.cubes(), ghostLayers);
+}
+
+/// Whether loading bricks anew is worth it: the split leaves one owner twice the mean cost of that
+/// scene, and a new one would take a quarter off that. The same answer on every rank.
+bool Worker::State::isSplitBadly(const Scene& next, const Shown& what) const {
+  const CostEstimate cost = costOf(what);
+  const double now = unevenness(tree, cost);
+  if (now <= 2) return false;
+  const BrickTree other =
+      partition(comm, cost, ghostLayers(next, options), source.info(), scale, options);
+  return unevenness(other, cost) < 0.75 * now;
+}
+
+/// Whether the bricks hold all that a scene needs. The same answer on every rank.
+bool Worker::State::isLoaded(const Scene& next, const Shown& what) const {
+  const int layers = ghostLayers(next, options);
+  if (layers > ghosts || (gradientNeeded(next) && !hasGradients)) return false;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const IndexBox needed = neededPart(BrickId{static_cast<std::uint32_t>(i)}, what, layers);
+    if (!needed.empty() && !parts[i].contains(needed)) return false;
+  }
+  return true;
+}
+
+/// Collective. The survey, and what follows from it, if the scene needs more than there is.
+void Worker::State::measure() {
+  const bool needed = gradientNeeded(scene);
+  if (!survey.blocks.lowest.empty() && needed <= hasGradients) return;
+  survey = surveyVolume(comm, source, needed);
+  hasGradients = needed;
+  scale = valueScaleOf(source.info().type, survey);
+  blocks = VisibleBlocks{survey, scale};
+  raycaster.reset();  // its programs know the gradients' scale
+}
+
+/// Collective. Splits the volume for the scene and loads what it can show of this rank's bricks.
 void Worker::State::load() {
   const VolumeInfo& volume = source.info();
-  if (const bool needed = gradientNeeded(scene);
-      survey.blocks.lowest.empty() || needed > hasGradients) {
-    survey = surveyVolume(comm, source, needed);
-    hasGradients = needed;
-  }
-  tree = partition(comm, scene, volume, survey, options);
+  if (context) context->makeCurrent();
+  bricks.clear();
+  measure();
+  shown = whatShows(scene);
   ghosts = ghostLayers(scene, options);
+  tree = partition(comm, costOf(shown), ghosts, volume, scale, options);
+  parts.clear();
+  for (std::size_t i = 0; i < tree.brickCount(); ++i)
+    parts.push_back(neededPart(BrickId{static_cast<std::uint32_t>(i)}, shown, ghosts));
   const int owner = static_cast<int>(comm.rank()) - static_cast<int>(firstOwner);
-  const std::vector<BrickId> mine =
-      owner >= 0 && owner < tree.ownerCount() ? tree.bricksOf(owner) : std::vector<BrickId>{};
-  const int threads = threadShare(comm, !mine.empty());
-  const ValueScale scale = valueScaleOf(volume.type, survey);
+  mine = owner >= 0 && owner < tree.ownerCount() ? tree.bricksOf(owner) : std::vector<BrickId>{};
+  const auto part = [&](BrickId id) { return parts[static_cast<std::size_t>(id)]; };
+  const bool draws = std::ranges::any_of(mine, [&](BrickId id) { return !part(id).empty(); });
+  const int threads = threadShare(comm, draws);
   std::vector<IndexBox> boxes;
   collectively(comm, "preparing to draw", [&] {
-    bricks.clear();
-    raycaster.reset();
-    if (mine.empty()) return;  // an idle rank needs no OpenGL
+    if (!draws) return;  // an idle rank needs no OpenGL
     if (!context) context.emplace(ContextOptions{threads});
     context->makeCurrent();
-    raycaster.emplace(scene, volume.grid, scale,
-                      Raycaster::GradientScales{survey.gradient999, survey.largestGradient},
-                      RaycastOptions{options.skip, options.countSamples, mine.size() > 1});
+    if (raycaster)
+      raycaster->setScene(scene);
+    else
+      raycaster.emplace(scene, volume.grid, scale,
+                        Raycaster::GradientScales{survey.gradient999, survey.largestGradient},
+                        RaycastOptions{options.skip, options.countSamples, mine.size() > 1});
     for (const BrickId id : mine) {
-      bricks.emplace_back(id, tree.brickCells(id), ghosts, volume, scale);
+      if (part(id).empty()) continue;
+      bricks.emplace_back(id, part(id), ghosts, volume, scale);
       boxes.push_back(bricks.back().storedVoxels());
     }
   });
@@ -144,11 +212,7 @@ void Worker::State::load() {
 
 /// Local. What the scene can show of each brick.
 void Worker::State::classify() {
-  if (bricks.empty()) return;
-  const VisibleValues visible{scene, raycaster->transferTables(),
-                              valueScaleOf(source.info().type, survey)};
-  const std::vector<glm::vec4> planes = centredClipPlanes(scene, source.info().grid);
-  for (Brick& brick : bricks) brick.classify(visible, planes);
+  for (Brick& brick : bricks) brick.classify(shown.values, shown.clipPlanes);
 }
 
 Worker::Worker(const Communicator& comm, const Scene& scene, BrickSource& source,
@@ -159,15 +223,15 @@ Worker::Worker(const Communicator& comm, const Scene& scene, BrickSource& source
 
 void Worker::update(const Scene& scene) {
   State& state = *state_;
-  const bool mustLoad = ghostLayers(scene, state.options) > state.ghosts ||
-                        (gradientNeeded(scene) && !state.hasGradients) || state.isSplitBadly(scene);
-  const bool sameShown = state.scene.clip == scene.clip &&
-                         std::ranges::equal(state.scene.layers, scene.layers, {},
-                                            &Layer::transferFunction, &Layer::transferFunction);
+  const bool sameShown = showsTheSame(state.scene, scene);
+  Shown shown = sameShown ? state.shown : state.whatShows(scene);
+  const bool mustLoad =
+      !state.isLoaded(scene, shown) || (!sameShown && state.isSplitBadly(scene, shown));
   const Scene before = std::exchange(state.scene, scene);
   if (mustLoad) return state.load();
+  std::swap(state.shown, shown);
   const auto apply = [&] {
-    if (!state.raycaster) return;
+    if (state.bricks.empty()) return;
     state.context->makeCurrent();
     state.raycaster->setScene(state.scene);
     if (!sameShown) state.classify();
@@ -177,6 +241,7 @@ void Worker::update(const Scene& scene) {
   } catch (const CollectiveError&) {
     // Also where it went well: all ranks must draw the same scene.
     state.scene = before;
+    std::swap(state.shown, shown);
     apply();
     throw;
   }
@@ -196,8 +261,13 @@ const BrickTree& Worker::tree() const {
 
 std::vector<Rank> Worker::visibilityOrder(const Camera& camera) const {
   std::vector<Rank> ranks;
-  for (const int owner : state_->tree.ownerVisibilityOrder(camera))
-    ranks.push_back(Rank{owner + static_cast<int>(state_->firstOwner)});
+  for (const int owner : state_->tree.ownerVisibilityOrder(camera)) {
+    const auto shows = [&](BrickId id) {
+      return !state_->parts[static_cast<std::size_t>(id)].empty();
+    };
+    if (std::ranges::any_of(state_->tree.bricksOf(owner), shows))
+      ranks.push_back(Rank{owner + static_cast<int>(state_->firstOwner)});
+  }
   return ranks;
 }
 
@@ -217,25 +287,27 @@ compositor::SubimageView<Rgba> Worker::draw(const Camera& camera, RankStatistics
     for (const BrickId id : state_->tree.visibilityOrder(camera))
       if (const Brick* brick = state_->find(id)) bricks.push_back(brick);
   }
+  statistics.bricks = static_cast<std::int32_t>(state_->mine.size());
   return drawThese(bricks, camera, statistics, room, steps);
 }
 
 compositor::SubimageView<Rgba> Worker::drawBrick(BrickId brick, const Camera& camera,
                                                  RankStatistics& statistics,
                                                  const PixelRoom& room) {
+  BURIN_CHECK(std::ranges::find(state_->mine, brick) != state_->mine.end());
   const Brick* const found = state_->find(brick);
-  BURIN_CHECK(found != nullptr);
-  return drawThese(std::span{&found, 1}, camera, statistics, room, nullptr);
+  statistics.bricks = 1;
+  return drawThese(std::span{&found, found != nullptr ? 1u : 0u}, camera, statistics, room,
+                   nullptr);
 }
 
 /// `bricks`: front to back.
 compositor::SubimageView<Rgba> Worker::drawThese(std::span<const Brick* const> bricks,
                                                  const Camera& camera, RankStatistics& statistics,
                                                  const PixelRoom& room, const StepMap* steps) {
-  statistics.bricks = static_cast<std::int32_t>(bricks.size());
   for (const Brick* brick : bricks)
     statistics.residentVoxelBytes += static_cast<std::int64_t>(brick->residentBytes());
-  if (!state_->raycaster) return {camera.image, {}, {}};
+  if (bricks.empty()) return {camera.image, {}, {}};
   state_->context->makeCurrent();
   return state_->raycaster->draw(camera, bricks, statistics, room, steps);
 }

@@ -4,6 +4,7 @@
 
 #include "support/mpi_test.hpp"
 #include "support/scenes.hpp"
+#include "visible_blocks.hpp"
 
 namespace burin::node {
 namespace {
@@ -14,7 +15,11 @@ TEST(CostEstimate, CountsVisibleBlocksAndAddsUp) {
   test::ArraySource source{grid, [](glm::ivec3 i) { return i.x < 20 ? 0.6f : 0.0f; }};
   Scene scene = test::sceneWithStyle("plain");
   resolveScene(scene, {grid, false});
-  const CostEstimate cost{surveyVolume(test::world(), source, false).blocks, grid, scene};
+  const VolumeSurvey survey = surveyVolume(test::world(), source, false);
+  const ValueScale scale = valueScaleOf(VoxelType::kF32, survey);
+  const VisibleBlocks blocks{survey, scale};
+  const VisibleValues visible{scene, transferTables(scene, scale), scale};
+  const CostEstimate cost{blocks.mark(visible, {}, grid), blocks.cubes(), grid};
   const glm::ivec3 cells = grid.cells();
   // Voxel 19 is the last dense one: blocks [0,16) and [16,32) show, [32,59) do not.
   const double section = double{1} * cells.y * cells.z;

@@ -88,6 +88,37 @@ TEST(RankInvariance, MoreRanksThanCells) {
   expectSameAsAlone(scene, source, cameras(scene, source.info().grid), {});
 }
 
+TEST(RankInvariance, RanksWithNothingToShow) {
+  // One small ball, all in one block, and bricks of some ranks that do not touch it.
+  ArraySource source{gridOf({81, 81, 81}), [](glm::ivec3 i) {
+                       const double r = glm::distance(glm::dvec3{i}, glm::dvec3{24});
+                       return static_cast<float>(std::max(1 - r / 6, 0.0));
+                     }};
+  Scene scene = sceneWithStyle("light");
+  scene.camera.zoom = 3;
+  scene.layers[0].transferFunction = {{{0.1, {255, 0, 0}, 0}, {0.4, {255, 0, 0}, 0.5}}, {}};
+  scene = resolved(scene, source);
+  const std::vector<Camera> views = cameras(scene, source.info().grid);
+  node::Worker worker{world(), scene, source, {.bricks = 4 * world().size()}};
+  Scene nothing = scene;
+  nothing.layers[0].transferFunction.points[1].opacity = 0;
+  worker.update(nothing);
+  EXPECT_TRUE(worker.visibilityOrder(views[0]).size() <= static_cast<std::size_t>(world().size()));
+  if (const auto frame = drawTogether(worker, views[0])) EXPECT_EQ(largestAlpha(*frame), 0);
+  // From nothing at all, loaded nowhere, to the ball, and back.
+  node::Worker grows{world(), nothing, source, {.bricks = 4 * world().size()}};
+  EXPECT_TRUE(grows.visibilityOrder(views[0]).empty());
+  if (const auto frame = drawTogether(grows, views[0])) EXPECT_EQ(largestAlpha(*frame), 0);
+  grows.update(scene);
+  worker.update(scene);
+  const auto after = drawTogether(grows, views[0]);
+  const auto before = drawTogether(worker, views[0]);
+  if (!world().isRoot()) return;
+  EXPECT_GT(largestAlpha(*before), 0.3);
+  // Another split, as the one for nothing cannot know what will be seen.
+  EXPECT_LE(difference(*before, *after).largest, kLargest);
+}
+
 TEST(RankInvariance, SameLayoutTwiceIsBitIdentical) {
   ArraySource source = smoothVolume(gridOf({40, 40, 30}));
   const Scene scene = resolved(sceneWithStyle("all"), source);

@@ -17,6 +17,8 @@ burin_add_renderer_test(voxel_types_test RANKS 1 TIMEOUT 120)
 burin_add_renderer_test(program_generator_test RANKS 1 TIMEOUT 120)
 burin_add_renderer_test(macrocells_test RANKS 1)
 burin_add_renderer_test(clip_planes_test RANKS 1)
+burin_add_renderer_test(visible_blocks_test RANKS 1)
+burin_add_renderer_test(brick_parts_test RANKS 1 TIMEOUT 120)
 burin_add_renderer_test(transfer_table_test RANKS 1)
 burin_add_renderer_test(cost_estimate_test RANKS 1 3)
 

@@ -254,9 +254,10 @@ TEST(Skipping, VoxelsOfTheValueWhereAFunctionBeginsAreEmpty) {
     scene = resolved(scene, source);
     const Camera camera = resolveCamera(scene, {source.info().grid, false});
     RankStatistics on, off;
-    const auto skipped = drawAlone(scene, source, camera, {.countSamples = true}, &on);
-    const auto visited =
-        drawAlone(scene, source, camera, {.skip = false, .countSamples = true}, &off);
+    const auto skipped =
+        drawAlone(scene, source, camera, {.countSamples = true, .wholeBricks = true}, &on);
+    const auto visited = drawAlone(
+        scene, source, camera, {.skip = false, .countSamples = true, .wholeBricks = true}, &off);
     EXPECT_TRUE(std::ranges::equal(skipped.pixels(), visited.pixels()));
     // The macrocells around the ball hold 20³ of the 47³ cells.
     EXPECT_LT(on.samplesVisited, off.samplesVisited / 5);

@@ -39,7 +39,8 @@ void setTimes(SkipMeasurement& row, const std::vector<double>& ms) {
 
 SkipMeasurement countedRow(const Communicator& comm, const std::string& name,
                            PreparedScene& prepared, bool isSkipping) {
-  TimedDrawing counting{comm, prepared, {.skip = isSkipping, .countSamples = true}};
+  TimedDrawing counting{
+      comm, prepared, {.skip = isSkipping, .countSamples = true, .wholeBricks = !isSkipping}};
   const RankStatistics samples = counting.count();
   SkipMeasurement row;
   row.scene = name;
@@ -59,7 +60,7 @@ std::array<SkipMeasurement, 2> measureSkip(const Communicator& comm, const std::
                                            int repeats) {
   std::array rows{countedRow(comm, name, prepared, true), countedRow(comm, name, prepared, false)};
   TimedDrawing on{comm, prepared, {.skip = true}};
-  TimedDrawing off{comm, prepared, {.skip = false}};
+  TimedDrawing off{comm, prepared, {.skip = false, .wholeBricks = true}};
   std::vector<double> onMs, offMs, denseMs;
   for (int round = -1; round < repeats; ++round) {  // the first one warms up
     const double first = on.drawMs();

@@ -24,6 +24,9 @@ struct WorkerOptions {
   bool skip = true;  ///< empty-space skipping
   bool countSamples = false;
   bool dedicatedHost = false;  ///< rank 0 gets no bricks
+  /// Loads all of a brick, not only what the scene may show of it: no edit of transfer functions or
+  /// clip planes then loads anything.
+  bool wholeBricks = false;
   /// Overrides what the scene's styles declare: tests show with it that the declaration is needed.
   std::optional<int> ghostLayers = std::nullopt;
 };
@@ -32,23 +35,27 @@ struct WorkerOptions {
 /// programs, and the tree that all ranks agree on.
 class Worker {
  public:
-  /// Collective. Surveys the volume, splits it, loads this rank's bricks. `scene` must be resolved.
+  /// Collective. Surveys the volume, splits it, loads what the scene may show of this rank's bricks
+  /// (also without skipping: the same textures, so the same picture). A rank of whose bricks
+  /// nothing shows has no OpenGL context. `scene` must be resolved.
   Worker(const Communicator& comm, const Scene& scene, BrickSource& source,
          const WorkerOptions& options);
   ~Worker();
 
   /// Collective. Draws this scene from now on, doing only what the change needs: values alone are
   /// uniforms; a transfer function is a new table and new occupancy; other styles are a program;
-  /// more ghost layers, the first use of gradients or a split that has become bad mean
-  /// that bricks are loaded again. `scene` must be resolved and of the same volume; the
-  /// communicator and the source given at the start must still be there. Throws CollectiveError;
-  /// the worker then draws what it drew before, or nothing if bricks were being loaded.
+  /// more ghost layers, the first use of gradients, parts that were not loaded because nothing
+  /// showed there, or a split that has become bad mean that bricks are loaded again. `scene` must
+  /// be resolved and of the same volume; the communicator and the source given at the start must
+  /// still be there. Throws CollectiveError; the worker then draws what it drew before, or nothing
+  /// if bricks were being loaded.
   void update(const Scene& scene);
 
   const VolumeSurvey& survey() const;
   const BrickTree& tree() const;
 
-  /// Ranks that own bricks, front to back for this camera. The same on every rank.
+  /// Ranks that own bricks of which something may show, front to back for this camera. The same on
+  /// every rank.
   std::vector<Rank> visibilityOrder(const Camera& camera) const;
 
   /// Where a subimage's pixels go: memory for that many, which outlives the subimage.
