@@ -12,7 +12,6 @@
 namespace burin::node {
 namespace {
 
-constexpr int kBlock = BlockRanges::kBlockCells;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 /// What a minimum starts from.
@@ -24,9 +23,9 @@ template <typename Voxel>
 constexpr Voxel kLowest = std::is_same_v<Voxel, float> ? static_cast<Voxel>(-kInfinity)
                                                        : std::numeric_limits<Voxel>::min();
 
-/// Blocks along each axis: cells / 16 rounded up. An axis of one voxel has one block.
-glm::ivec3 blockCounts(const glm::ivec3& dims) {
-  return glm::max((dims - 1 + (kBlock - 1)) / kBlock, glm::ivec3{1});
+/// Blocks along each axis, rounded up. An axis of one voxel has one block.
+glm::ivec3 blockCounts(const glm::ivec3& dims, int blockCells) {
+  return glm::max((dims - 1 + (blockCells - 1)) / blockCells, glm::ivec3{1});
 }
 
 /// The blocks [first, last] along one axis that contain voxel i: two at a shared face.
@@ -34,8 +33,8 @@ struct BlockSpan {
   int first;
   int last;
 };
-BlockSpan blocksOfVoxel(int i, int blocks) {
-  return {std::max(0, (i + kBlock - 1) / kBlock - 1), std::min(i / kBlock, blocks - 1)};
+BlockSpan blocksOfVoxel(int i, int blocks, int blockCells) {
+  return {std::max(0, (i + blockCells - 1) / blockCells - 1), std::min(i / blockCells, blocks - 1)};
 }
 
 /// Keeps, for the current layer of blocks, the extremes of each column (x, block row): the inner
@@ -46,7 +45,8 @@ class TypedRangeSurvey : public RangeSurvey {
  public:
   explicit TypedRangeSurvey(const glm::ivec3& dims)
       : dims_{dims}, width_{static_cast<std::size_t>(dims.x)}, row_(width_) {
-    blocks_.blocks = blockCounts(dims);
+    blocks_.blockCells = blockCellsFor(dims);
+    blocks_.blocks = blockCounts(dims, blocks_.blockCells);
     const std::size_t count = static_cast<std::size_t>(blocks_.blocks.x) *
                               static_cast<std::size_t>(blocks_.blocks.y) *
                               static_cast<std::size_t>(blocks_.blocks.z);
@@ -56,7 +56,7 @@ class TypedRangeSurvey : public RangeSurvey {
   }
 
   void addSlice(int z, std::span<const std::byte> voxels) override {
-    const BlockSpan layers = blocksOfVoxel(z, blocks_.blocks.z);
+    const BlockSpan layers = blocksOfVoxel(z, blocks_.blocks.z, blocks_.blockCells);
     if (layer_ != layers.first) {
       closeLayer();
       layer_ = layers.first;
@@ -89,7 +89,7 @@ class TypedRangeSurvey : public RangeSurvey {
       if constexpr (std::is_same_v<Voxel, float>) {
         if (countUnusual) countNonFinite();
       }
-      const BlockSpan rows = blocksOfVoxel(y, blocks_.blocks.y);
+      const BlockSpan rows = blocksOfVoxel(y, blocks_.blocks.y, blocks_.blockCells);
       for (int b = rows.first; b <= rows.last; ++b) addRow(b);
     }
   }
@@ -135,10 +135,11 @@ class TypedRangeSurvey : public RangeSurvey {
 
   void closeBlock(const glm::ivec3& block) {
     const std::size_t row = static_cast<std::size_t>(block.y) * width_;
-    const int last = std::min(block.x * kBlock + kBlock, dims_.x - 1);
+    const int first = block.x * blocks_.blockCells;
+    const int last = std::min(first + blocks_.blockCells, dims_.x - 1);
     Voxel lowest = kHighest<Voxel>;
     Voxel highest = kLowest<Voxel>;
-    for (int x = block.x * kBlock; x <= last; ++x) {
+    for (int x = first; x <= last; ++x) {
       lowest = std::min(lowest, columnLowest_[row + static_cast<std::size_t>(x)]);
       highest = std::max(highest, columnHighest_[row + static_cast<std::size_t>(x)]);
     }
@@ -161,6 +162,13 @@ class TypedRangeSurvey : public RangeSurvey {
 };
 
 }  // namespace
+
+int blockCellsFor(const glm::ivec3& dims) {
+  constexpr std::size_t kMostBlocks = std::size_t{1} << 19;
+  for (const int cells : {4, 8})
+    if (IndexBox{glm::ivec3{0}, blockCounts(dims, cells)}.count() <= kMostBlocks) return cells;
+  return 16;
+}
 
 std::size_t BlockRanges::index(const glm::ivec3& block) const {
   const auto row = static_cast<std::size_t>(block.z) * static_cast<std::size_t>(blocks.y) +

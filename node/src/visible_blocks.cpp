@@ -7,7 +7,7 @@
 namespace burin::node {
 
 VisibleBlocks::VisibleBlocks(const VolumeSurvey& survey, const ValueScale& scale)
-    : ranges_{survey.blocks.blocks} {
+    : ranges_{survey.blocks.blocks}, blockCells_{survey.blocks.blockCells} {
   const BlockRanges& blocks = survey.blocks;
   // As the textures' values up to a float's rounding, which VisibleValues allows for.
   const auto stored = [&](float value) {

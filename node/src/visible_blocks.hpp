@@ -21,7 +21,7 @@ class VisibleBlocks {
   /// and may be anywhere, so with any of them every block may hold every value.
   VisibleBlocks(const VolumeSurvey& survey, const ValueScale& scale);
 
-  CubeGrid cubes() const { return {glm::ivec3{0}, ranges_.size, BlockRanges::kBlockCells}; }
+  CubeGrid cubes() const { return {glm::ivec3{0}, ranges_.size, blockCells_}; }
 
   /// Per block 1 if its values may show something, x fastest.
   std::vector<std::uint8_t> mark(const VisibleValues& visible,
@@ -30,6 +30,7 @@ class VisibleBlocks {
 
  private:
   ValueRanges ranges_;
+  int blockCells_ = 1;
 };
 
 /// The smallest box of cells outside of which no segment with its middle in `cells` meets a marked

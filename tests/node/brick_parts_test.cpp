@@ -157,8 +157,8 @@ TEST(BrickParts, MemoryIsThatOfTheStoredBoxAndAFifthAtMost) {
   EXPECT_GE(bytes(f32, resolved(opaque(255), f32)), 4 * voxels);
   EXPECT_LE(bytes(f32, resolved(opaque(255), f32)), 1.2 * 4 * voxels);
 
-  // A ball in the blocks [32, 48)³ of 96³: with what a segment reaches (1), a cell for rounding and
-  // a ghost layer, voxels 29 … 51.
+  // A ball in the blocks from 32 to 48 of 96: with what a segment reaches (1), a cell for rounding
+  // and a ghost layer, voxels 29 … 51.
   ArraySource ball{gridOf({97, 97, 97}), [](glm::ivec3 i) {
                      const double r = glm::distance(glm::dvec3{i}, glm::dvec3{40});
                      return static_cast<float>(std::max(1 - r / 7, 0.0));

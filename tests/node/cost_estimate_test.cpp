@@ -21,9 +21,9 @@ TEST(CostEstimate, CountsVisibleBlocksAndAddsUp) {
   const VisibleValues visible{scene, transferTables(scene, scale), scale};
   const CostEstimate cost{blocks.mark(visible, {}, grid), blocks.cubes(), grid};
   const glm::ivec3 cells = grid.cells();
-  // Voxel 19 is the last dense one: blocks [0,16) and [16,32) show, [32,59) do not.
+  // Voxel 19 is the last dense one: blocks up to [16,20) show, [20,59) do not.
   const double section = double{1} * cells.y * cells.z;
-  EXPECT_NEAR(cost({{0, 0, 0}, cells}), section * (32 + 27 * CostEstimate::kEmptyCost), 1e-6);
+  EXPECT_NEAR(cost({{0, 0, 0}, cells}), section * (20 + 39 * CostEstimate::kEmptyCost), 1e-6);
   EXPECT_NEAR(cost({{0, 0, 0}, {8, cells.y, cells.z}}), section * 8, 1e-6);
   // Additive over any cut.
   for (const int x : {1, 17, 33, 58})

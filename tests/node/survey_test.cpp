@@ -44,7 +44,9 @@ struct PlainVolume {
 VolumeSurvey plainSurvey(const PlainVolume& volume) {
   VolumeSurvey survey;
   float lowest = kInf, highest = -kInf;
-  survey.blocks.blocks = glm::max((volume.grid.dims + 14) / 16, glm::ivec3{1});
+  const int cells = node::blockCellsFor(volume.grid.dims);
+  survey.blocks.blockCells = cells;
+  survey.blocks.blocks = glm::max((volume.grid.dims + cells - 2) / cells, glm::ivec3{1});
   const auto blocks = survey.blocks.blocks;
   survey.blocks.lowest.assign(static_cast<std::size_t>(blocks.x * blocks.y * blocks.z), kInf);
   survey.blocks.highest.assign(survey.blocks.lowest.size(), -kInf);
@@ -57,7 +59,8 @@ VolumeSurvey plainSurvey(const PlainVolume& volume) {
     highest = std::max(highest, value);
     for (int b = 0; b < blocks.x * blocks.y * blocks.z; ++b) {
       const glm::ivec3 block{b % blocks.x, b / blocks.x % blocks.y, b / (blocks.x * blocks.y)};
-      if (glm::any(glm::lessThan(i, block * 16)) || glm::any(glm::greaterThan(i, block * 16 + 16)))
+      if (glm::any(glm::lessThan(i, block * cells)) ||
+          glm::any(glm::greaterThan(i, block * cells + cells)))
         continue;
       auto& blockLowest = survey.blocks.lowest[static_cast<std::size_t>(b)];
       auto& blockHighest = survey.blocks.highest[static_cast<std::size_t>(b)];
@@ -128,6 +131,7 @@ void expectSameRanges(const VolumeSurvey& a, const VolumeSurvey& b) {
   EXPECT_EQ(a.highest, b.highest);
   EXPECT_EQ(a.nanCount, b.nanCount);
   EXPECT_EQ(a.infiniteCount, b.infiniteCount);
+  EXPECT_EQ(a.blocks.blockCells, b.blocks.blockCells);
   EXPECT_EQ(a.blocks.blocks, b.blocks.blocks);
   EXPECT_EQ(a.blocks.lowest, b.blocks.lowest);
   EXPECT_EQ(a.blocks.highest, b.blocks.highest);
@@ -202,6 +206,47 @@ TEST(Survey, EveryType) {
     return static_cast<std::uint16_t>(hashOf(i) >> 16);
   }));
   expectSurvey({grid, randomFloat});
+}
+
+TEST(Survey, BlocksAreAsFineAsTheirNumberAllows) {
+  EXPECT_EQ(node::blockCellsFor({1, 1, 1}), 4);
+  EXPECT_EQ(node::blockCellsFor({256, 256, 256}), 4);
+  EXPECT_EQ(node::blockCellsFor({512, 512, 512}), 8);
+  EXPECT_EQ(node::blockCellsFor({1024, 1024, 1024}), 16);
+  EXPECT_EQ(node::blockCellsFor({4000, 4000, 4000}), 16);
+}
+
+TEST(Survey, CoarserBlocks) {
+  // So flat and wide that blocks of 4 cells would be too many.
+  const VolumeGrid grid = gridOf({2903, 2, 2899});
+  auto source = ArraySource::of<std::uint8_t>(grid, VoxelType::kU8, [](glm::ivec3 i) {
+    return static_cast<std::uint8_t>((i.x * 7 + i.y * 131 + i.z * 13) * (i.x ^ i.z) >> 3);
+  });
+  const BlockRanges blocks = surveyVolume(world(), source, false).blocks;
+  ASSERT_EQ(blocks.blockCells, 8);
+  ASSERT_EQ(blocks.blocks, (glm::ivec3{363, 1, 363}));
+  std::vector<std::byte> voxels(grid.voxelCount());
+  source.load({glm::ivec3{0}, grid.dims}, voxels);
+  int wrong = 0;
+  for (int bz = 0; bz < 363; ++bz)
+    for (int bx = 0; bx < 363; ++bx) {
+      int lowest = 255, highest = 0;
+      for (int z = 8 * bz; z <= std::min(8 * bz + 8, 2898); ++z)
+        for (int y = 0; y < 2; ++y)
+          for (int x = 8 * bx; x <= std::min(8 * bx + 8, 2902); ++x) {
+            const int voxel = static_cast<int>(
+                voxels[(static_cast<std::size_t>(z) * 2 + static_cast<std::size_t>(y)) * 2903 +
+                       static_cast<std::size_t>(x)]);
+            lowest = std::min(lowest, voxel);
+            highest = std::max(highest, voxel);
+          }
+      const std::size_t i = blocks.index({bx, 0, bz});
+      wrong += blocks.lowest[i] == static_cast<float>(lowest) &&
+                       blocks.highest[i] == static_cast<float>(highest)
+                   ? 0
+                   : 1;
+    }
+  EXPECT_EQ(wrong, 0);
 }
 
 TEST(Survey, ThinVolumes) {

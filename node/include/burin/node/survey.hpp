@@ -27,15 +27,20 @@ void readSlabs(const Communicator& comm, BrickSource& source, std::span<const In
                const std::function<void(const Slab&)>& deliver,
                std::size_t slabBytes = std::size_t{32} << 20);
 
-/// Smallest and largest finite value of each block of kBlockCells³ cells on the global cell grid,
-/// shared faces included (block b covers voxels [b*kBlockCells, (b+1)*kBlockCells]).
+/// Smallest and largest finite value of each block of blockCells³ cells on the global cell grid,
+/// shared faces included (block b covers voxels [b*blockCells, (b+1)*blockCells]). Every rank holds
+/// those of the whole volume.
 struct BlockRanges {
-  static constexpr int kBlockCells = 16;
+  int blockCells = 16;
   glm::ivec3 blocks{0};
   std::vector<float> lowest;   ///< +infinity for a block without finite voxels; data units
   std::vector<float> highest;  ///< -infinity likewise
   std::size_t index(const glm::ivec3& block) const;
 };
+
+/// Cells along each side of a volume's blocks: 4, 8 or 16, the fewest that make no more than 2^19
+/// blocks (or 16). Finer ones tell better where the work is.
+int blockCellsFor(const glm::ivec3& dims);
 
 /// Facts of the whole volume, the same on all ranks and for any number of ranks.
 struct VolumeSurvey {
