@@ -65,6 +65,7 @@ Json frameJson(const FrameStatistics& frame, bool samplesCounted) {
   Json json;
   json["frame_ms"] = frame.frameMs;
   json["phases_ms"] = phasesJson(frame.phases);
+  if (frame.isUnchanged) json["unchanged"] = true;
   if (!frame.composite.schedule.empty()) json["composite"] = compositeJson(frame.composite);
   json["ranks"] = Json::array();
   for (const RankStatistics& rank : frame.ranks) {

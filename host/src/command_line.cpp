@@ -92,6 +92,9 @@ void addRunOptions(CLI::App& app, RenderOptions& options, RenderText& text) {
       ->type_name("FILE.json");
   app.add_flag("--count-samples", options.worker.countSamples, "Count samples for --stats (slower)")
       ->needs("--stats");
+  app.add_flag("--redraw", options.redraw,
+               "Draw each frame anew though nothing changed since the one before, to time it")
+      ->needs("--frames");
   app.add_flag("--reference", options.reference,
                "Draw with the slow double-precision reference; it has no bricks and skips nothing");
   app.add_flag("--quiet", options.quiet, "Say nothing but warnings and errors");

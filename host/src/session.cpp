@@ -101,17 +101,27 @@ int Session::runFrame(int index) {
   return 0;
 }
 
+/// Scene, size and options stay through a session, so only the view can be another one.
+bool Session::isThere(double orbit) const {
+  return options_.worker.skip && !options_.redraw && drawnDeg_ == orbit;
+}
+
 /// From the camera to the finished picture in rank 0's memory: the part that `frame_ms` times.
 /// Returns what became of the finish passes, which are rank 0's alone.
 Outcome Session::draw(int index, FrameStatistics& frame, RankStatistics& mine) {
   mine.rank = static_cast<std::int32_t>(comm_.rank());
   Outcome finishing;
-  {
+  const double orbit = orbitDeg(index);
+  frame.isUnchanged = isThere(orbit);
+  if (frame.isUnchanged) {
+    mine.bricks = drawn_.bricks;
+    mine.residentVoxelBytes = drawn_.residentVoxelBytes;
+  } else {
     const PhaseTimer whole{frame.frameMs};
     Camera camera;
     {
       const PhaseTimer timer{mine.phases[Phase::kUpdate]};
-      camera = resolveCamera(prepared_.scene, prepared_.facts, orbitDeg(index));
+      camera = resolveCamera(prepared_.scene, prepared_.facts, orbit);
     }
     const ImageView<const Rgba> image = frames_->make(camera, mine);
     frame.composite = frames_->lastComposite();
@@ -119,6 +129,8 @@ Outcome Session::draw(int index, FrameStatistics& frame, RankStatistics& mine) {
       const PhaseTimer timer{mine.phases[Phase::kFinish]};
       finishing = attempt([&] { display_->finish(image); });
     }
+    drawnDeg_ = orbit;
+    drawn_ = mine;
   }
   mine.peakRssBytes = peakResidentBytes();
   return finishing;
@@ -137,14 +149,18 @@ void Session::writeFrame(int index, FrameStatistics& frame) {
 void Session::reportResult() const {
   const auto& frames = statistics_.frames;
   double total = 0;
-  for (const FrameStatistics& frame : frames) total += frame.frameMs;
+  int drawn = 0;
+  for (const FrameStatistics& frame : frames) {
+    total += frame.frameMs;
+    drawn += frame.isUnchanged ? 0 : 1;
+  }
   const auto last = static_cast<int>(frames.size()) - 1;
   const std::string name = frameFile(options_, 0).string();
   const std::string upTo =
       last > 0 ? " … " + frameFile(options_, last).filename().string() : std::string{};
   const ImageSize size = prepared_.scene.imageSize;
   note("{}{}: {} x {}, {:.1f} ms per frame on {} rank{}", name, upTo, size.width, size.height,
-       total / static_cast<double>(frames.size()), comm_.size(), comm_.size() == 1 ? "" : "s");
+       total / drawn, comm_.size(), comm_.size() == 1 ? "" : "s");
 }
 
 }  // namespace burin::host

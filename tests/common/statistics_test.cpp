@@ -86,6 +86,14 @@ TEST(StatisticsJson, SaysHowAFrameWasMerged) {
                                                            {"packed", true}}));
 }
 
+TEST(StatisticsJson, SaysWhichFramesWereNotDrawn) {
+  RunStatistics run = twoFramesOnTwoRanks();
+  run.frames[1].isUnchanged = true;
+  const Json json = Json::parse(statisticsJson(run));
+  EXPECT_FALSE(json.at("frames").at(0).contains("unchanged"));
+  EXPECT_EQ(json.at("frames").at(1).at("unchanged"), true);
+}
+
 TEST(StatisticsJson, LeavesOutWhatWasNotCounted) {
   const Json json = Json::parse(statisticsJson(twoFramesOnTwoRanks()));
   const Json& rank = json.at("frames").at(0).at("ranks").at(1);

@@ -75,6 +75,7 @@ TEST(CommandLine, RenderTakesEveryOption) {
                                              "0.5,1,2.25",
                                              "--stats",
                                              "t.json",
+                                             "--redraw",
                                              "--reference",
                                              "--quiet",
                                              "--count-samples",
@@ -92,6 +93,7 @@ TEST(CommandLine, RenderTakesEveryOption) {
   EXPECT_TRUE(options.worker.dedicatedHost);
   EXPECT_EQ(options.frames, 8);
   EXPECT_EQ(options.orbitDeg, -90.5);
+  EXPECT_TRUE(options.redraw);
   EXPECT_EQ(options.raw.dims, glm::ivec3(3, 4, 5));
   EXPECT_EQ(options.raw.type, "i16");
   EXPECT_EQ(options.raw.endian, "big");
@@ -150,9 +152,10 @@ TEST(CommandLine, HelpAndVersionAreAnswers) {
   EXPECT_THAT(std::get<Answer>(parse({"--help"})).text, HasSubstr("make-volume"));
   const std::string render = std::get<Answer>(parse({"render", "--help"})).text;
   for (const char* option :
-       {"--output", "--volume", "--size", "--set", "--bricks", "--skip", "--dedicated-host",
-        "--frames", "--orbit", "--dims", "--type", "--endian", "--stats", "--count-samples",
-        "--reference", "--save-scene", "--quiet", "burin styles", "schema.json"})
+       {"--output",    "--volume",         "--size",   "--set",           "--bricks",
+        "--skip",      "--dedicated-host", "--frames", "--orbit",         "--dims",
+        "--type",      "--endian",         "--stats",  "--count-samples", "--redraw",
+        "--reference", "--save-scene",     "--quiet",  "burin styles",    "schema.json"})
     EXPECT_THAT(render, HasSubstr(option));
   EXPECT_THAT(std::get<Answer>(parse({"make-volume", "--help"})).text, HasSubstr("vessels"));
 }
@@ -199,6 +202,7 @@ INSTANTIATE_TEST_SUITE_P(
                       BadUsage{{"render", "s.json", "--bricks", "many"}, "--bricks"},
                       BadUsage{{"render", "s.json", "--frames", "0"}, "--frames"},
                       BadUsage{{"render", "s.json", "--orbit", "90"}, "--frames"},
+                      BadUsage{{"render", "s.json", "--redraw"}, "--frames"},
                       BadUsage{{"render", "s.json", "--frames", "2", "--orbit", "inf"}, "--orbit"},
                       BadUsage{{"render", "s.json", "--count-samples"}, "--stats"},
                       BadUsage{{"render", "s.json", "--dedicated-host"}, "--dedicated-host"},

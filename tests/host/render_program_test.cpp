@@ -271,6 +271,56 @@ TEST_F(Render, OrbitNumbersItsPictures) {
   EXPECT_EQ(last.spec.get_string_attribute("burin:orbit_deg"), "60");
 }
 
+TEST_F(Render, FramesInWhichNothingChangedAreNotDrawnAgain) {
+  const auto framesWith = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"--frames",        "3",       "--orbit",     "0",
+                                       "--count-samples", "--stats", path("t.json")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    draw(path("a.exr"), arguments, 2);
+    return nlohmann::json::parse(std::ifstream{path("t.json")}).at("frames");
+  };
+  const auto samples = [](const nlohmann::json& frame) {
+    std::int64_t sum = 0;
+    for (const auto& rank : frame.at("ranks"))
+      sum += rank.at("samples_visited").get<std::int64_t>();
+    return sum;
+  };
+  const auto sent = [](const nlohmann::json& frame) {
+    return frame.at("ranks").at(1).at("bytes_sent").get<std::int64_t>();
+  };
+  const auto kept = framesWith({});
+  ASSERT_EQ(kept.size(), 3u);
+  EXPECT_FALSE(kept.at(0).contains("unchanged"));
+  EXPECT_GT(samples(kept.at(0)), 0);
+  for (const std::size_t i : {1u, 2u}) {
+    const auto& frame = kept.at(i);
+    EXPECT_EQ(frame.at("unchanged"), true);
+    EXPECT_EQ(samples(frame), 0);
+    EXPECT_EQ(sent(frame), 0);
+    EXPECT_FALSE(frame.contains("composite"));
+    for (const char* key : {"bricks", "resident_voxel_bytes"})
+      EXPECT_EQ(frame.at("ranks").at(1).at(key), kept.at(0).at("ranks").at(1).at(key));
+  }
+  const ReadPicture first = readPicture(path("a_0000.exr"));
+  EXPECT_GT(coverage(first), 0.05);
+  EXPECT_EQ(readPicture(path("a_0001.exr")).values, first.values);
+  EXPECT_EQ(readPicture(path("a_0002.exr")).values, first.values);
+  for (const std::vector<std::string>& more :
+       {std::vector<std::string>{"--redraw"}, std::vector<std::string>{"--skip", "off"}}) {
+    const auto drawn = framesWith(more);
+    for (const std::size_t i : {1u, 2u}) {
+      EXPECT_FALSE(drawn.at(i).contains("unchanged"));
+      EXPECT_EQ(samples(drawn.at(i)), samples(drawn.at(0)));
+      EXPECT_EQ(sent(drawn.at(i)), sent(drawn.at(0)));
+    }
+    EXPECT_EQ(readPicture(path("a_0002.exr")).values, first.values);
+  }
+  // Of an orbit no frame is the one before.
+  draw(path("b.exr"), {"--frames", "2", "--stats", path("t.json")});
+  const auto orbit = nlohmann::json::parse(std::ifstream{path("t.json")}).at("frames");
+  EXPECT_FALSE(orbit.at(1).contains("unchanged"));
+}
+
 TEST_F(Render, LeavesNoTemporaryFiles) {
   draw(path("a.png"), {"--stats", path("t.json"), "--save-scene", path("o.json")}, 2);
   EXPECT_THAT(folder_.names(), ElementsAre("a.png", "o.json", "s.json", "t.json"));

@@ -49,6 +49,9 @@ struct CompositeStatistics {
 struct FrameStatistics {
   double frameMs = 0;  ///< from "camera known" to "finished image in rank 0's memory"
   PhaseTimes phases;   ///< rank 0's view: what the user waits for
+  /// Nothing had changed since the frame before, whose picture this is: nothing was drawn or
+  /// merged.
+  bool isUnchanged = false;
   CompositeStatistics composite;
   std::vector<RankStatistics> ranks;
 };

@@ -44,6 +44,7 @@ struct RenderOptions {
   MergeOptions merge;
   int frames = 0;  ///< 0: one picture named as given; else numbered ones
   double orbitDeg = 360;
+  bool redraw = false;  ///< frames are drawn even if nothing changed since the one before
   bool reference = false;
   bool quiet = false;
   std::filesystem::path stats;      ///< empty: none

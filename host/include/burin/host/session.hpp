@@ -31,6 +31,8 @@ class Session {
   std::unique_ptr<FrameMaker> makeFrameMaker();
   /// The signal that some rank got, in which case the frame was dropped, or 0.
   int runFrame(int index);
+  /// Whether the frame of that orbit angle is the one that is there. The same on every rank.
+  bool isThere(double orbit) const;
   Outcome draw(int index, FrameStatistics& frame, RankStatistics& mine);
   void writeFrame(int index, FrameStatistics& frame);
   void reportResult() const;
@@ -41,6 +43,8 @@ class Session {
   PreparedScene prepared_;
   std::unique_ptr<FrameMaker> frames_;
   std::optional<Display> display_;  ///< on rank 0
+  std::optional<double> drawnDeg_;  ///< orbit angle of the last frame
+  RankStatistics drawn_;            ///< of the last frame that was drawn
   RunStatistics statistics_;
 };
 
