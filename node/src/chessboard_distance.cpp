@@ -1,108 +1,124 @@
 #include "chessboard_distance.hpp"
 
 #include <algorithm>
-#include <bit>
+#include <cstddef>
+#include <utility>
 
 #include "burin/common/error.hpp"
 
 namespace burin::node {
 namespace {
 
-/// A grid of bits, rows of x padded to whole words with zeros.
-struct Bits {
-  glm::ivec3 size;
-  std::size_t words;  ///< per row
-  std::vector<std::uint64_t> bits;
+using Row = std::vector<std::uint8_t>;
+constexpr std::uint8_t kLargest = kLargestDistance;
 
-  explicit Bits(const glm::ivec3& gridSize)
-      : size{gridSize},
-        words{(static_cast<std::size_t>(gridSize.x) + 63) / 64},
-        bits(words * rows()) {}
-  std::size_t rows() const {
-    return static_cast<std::size_t>(size.y) * static_cast<std::size_t>(size.z);
+constexpr std::size_t kReach = 32;  ///< cells beside a row that spreadRow() looks at
+
+/// The smaller of two rows, cell by cell. Here and below: loops whose cells do not depend on each
+/// other, with nothing but local variables, so that the compiler vectorises them.
+void takeMinimum(const std::uint8_t* from, std::uint8_t* to, std::size_t width) {
+  for (std::size_t x = 0; x < width; ++x) to[x] = from[x] < to[x] ? from[x] : to[x];
+}
+
+/// One further than the nearest of three cells, where that is nearer. `before`: from the cell left
+/// of the first to the one right of the last.
+void stepFrom(const std::uint8_t* before, std::uint8_t* cells, std::size_t width) {
+  for (std::size_t x = 0; x < width; ++x) {
+    const std::uint8_t sides = before[x] < before[x + 2] ? before[x] : before[x + 2];
+    const std::uint8_t nearest = before[x + 1] < sides ? before[x + 1] : sides;
+    const auto further = static_cast<std::uint8_t>(nearest + 1);
+    cells[x] = further < cells[x] ? further : cells[x];
   }
-  /// Which bits of the last word of a row are cells.
-  std::uint64_t tail() const {
-    const int used = size.x % 64;
-    return used == 0 ? ~std::uint64_t{0} : (std::uint64_t{1} << used) - 1;
+}
+
+/// Distances along a row from both ends, by steps of 1, 2, 4 … 32 cells, which make all up to 63.
+/// `row`, `next`: kReach cells more at each end, kLargest there; the result is in `row`.
+void spreadRow(Row& row, Row& next, std::size_t width) {
+  for (std::size_t step = 1; step <= kReach; step *= 2) {
+    const std::uint8_t* const own = row.data() + kReach;
+    const std::uint8_t* const left = own - step;
+    const std::uint8_t* const right = own + step;
+    std::uint8_t* const to = next.data() + kReach;
+    const auto further = static_cast<std::uint8_t>(step);
+    for (std::size_t x = 0; x < width; ++x) {
+      const std::uint8_t nearer = left[x] < right[x] ? left[x] : right[x];
+      const auto there = static_cast<std::uint8_t>(nearer + further);
+      to[x] = there < own[x] ? there : own[x];
+    }
+    std::swap(row, next);
   }
+}
+
+/// Distances to the nearest 0 of a grid: along x, then in two scans over the rows (Rosenfeld and
+/// Pfaltz, "Distance functions on digital pictures", 1968), each of which takes a row one further
+/// than the nearest neighbours in the rows that it met before.
+class Scans {
+ public:
+  /// `cells`: 0 where the distance is 0, else kLargest; becomes the distances.
+  Scans(Row& cells, const glm::ivec3& size)
+      : cells_{cells}, size_{size}, width_{static_cast<std::size_t>(size.x)} {}
+
+  void run() {
+    spreadRows();
+    for (int z = 0; z < size_.z; ++z)
+      for (int y = 0; y < size_.y; ++y) visit(y, z, -1);
+    for (int z = size_.z - 1; z >= 0; --z)
+      for (int y = size_.y - 1; y >= 0; --y) visit(y, z, 1);
+  }
+
+ private:
+  std::uint8_t* at(int y, int z) {
+    return cells_.data() + (static_cast<std::size_t>(z) * static_cast<std::size_t>(size_.y) +
+                            static_cast<std::size_t>(y)) *
+                               width_;
+  }
+
+  void spreadRows() {
+    Row row(width_ + 2 * kReach, kLargest);
+    Row next = row;
+    for (std::size_t first = 0; first < cells_.size(); first += width_) {
+      std::copy_n(cells_.data() + first, width_, row.data() + kReach);
+      spreadRow(row, next, width_);
+      std::copy_n(row.data() + kReach, width_, cells_.data() + first);
+    }
+  }
+
+  /// `back`: where the rows lie that were met before, -1 or 1.
+  void visit(int y, int z, int back) {
+    before_.assign(width_ + 2, kLargest);
+    const auto take = [&](int otherY, int otherZ) {
+      if (otherY < 0 || otherY >= size_.y || otherZ < 0 || otherZ >= size_.z) return;
+      takeMinimum(at(otherY, otherZ), before_.data() + 1, width_);
+    };
+    take(y + back, z);
+    for (const int dy : {-1, 0, 1}) take(y + dy, z + back);
+    stepFrom(before_.data(), at(y, z), width_);
+  }
+
+  Row& cells_;
+  glm::ivec3 size_;
+  std::size_t width_;
+  Row before_;  ///< nearest of the rows met before; one cell more at each end
 };
-
-/// Marks the neighbours of marked cells along x.
-void spreadX(const Bits& from, Bits& to) {
-  for (std::size_t row = 0; row < from.rows(); ++row) {
-    const std::uint64_t* in = from.bits.data() + row * from.words;
-    std::uint64_t* out = to.bits.data() + row * from.words;
-    for (std::size_t w = 0; w < from.words; ++w) {
-      std::uint64_t word = in[w] | (in[w] << 1) | (in[w] >> 1);
-      if (w > 0) word |= in[w - 1] >> 63;
-      if (w + 1 < from.words) word |= in[w + 1] << 63;
-      out[w] = word;
-    }
-    out[from.words - 1] &= from.tail();
-  }
-}
-
-/// The same for rows `stride` apart in lines of `count` rows, in place.
-void spreadRows(Bits& grid, std::size_t stride, int count, std::vector<std::uint64_t>& before) {
-  const std::size_t block = stride * grid.words;  // words between neighbours
-  const std::size_t line = block * static_cast<std::size_t>(count);
-  before.resize(block);
-  for (std::size_t start = 0; start < grid.bits.size(); start += line) {
-    std::ranges::fill(before, 0);
-    for (std::size_t at = start; at < start + line; at += block) {
-      const bool last = at + block == start + line;
-      for (std::size_t w = 0; w < block; ++w) {
-        const std::uint64_t own = grid.bits[at + w];
-        grid.bits[at + w] |= before[w] | (last ? 0 : grid.bits[at + block + w]);
-        before[w] = own;
-      }
-    }
-  }
-}
-
-/// Writes sign * distance for every cell outside `grid`, which grows by one cell at a time.
-void measure(Bits grid, int sign, const glm::ivec3& size, std::span<std::int8_t> distances) {
-  Bits grown{size};
-  std::vector<std::uint64_t> before;
-  const auto width = static_cast<std::size_t>(size.x);
-  for (int distance = 1; distance < kLargestDistance; ++distance) {
-    spreadX(grid, grown);
-    spreadRows(grown, 1, size.y, before);
-    spreadRows(grown, static_cast<std::size_t>(size.y), size.z, before);
-    bool any = false;
-    for (std::size_t i = 0; i < grid.bits.size(); ++i) {
-      const std::size_t row = i / grid.words;
-      const std::size_t first = row * width + i % grid.words * 64;
-      for (std::uint64_t added = grown.bits[i] & ~grid.bits[i]; added != 0; added &= added - 1) {
-        distances[first + static_cast<std::size_t>(std::countr_zero(added))] =
-            static_cast<std::int8_t>(sign * distance);
-        any = true;
-      }
-    }
-    if (!any) return;
-    std::swap(grid, grown);
-  }
-}
 
 }  // namespace
 
 std::vector<std::int8_t> signedChessboardDistance(std::span<const std::uint8_t> marked,
                                                   const glm::ivec3& size) {
-  Bits grid{size};
-  BURIN_CHECK_EQ(marked.size(), grid.rows() * static_cast<std::size_t>(size.x));
-  Bits others{size};
-  std::vector<std::int8_t> distances(marked.size());
-  std::size_t cell = 0;
-  for (std::size_t row = 0; row < grid.rows(); ++row)
-    for (std::size_t x = 0; x < static_cast<std::size_t>(size.x); ++x, ++cell) {
-      Bits& kind = marked[cell] != 0 ? grid : others;
-      kind.bits[row * grid.words + x / 64] |= std::uint64_t{1} << (x % 64);
-      distances[cell] =
-          static_cast<std::int8_t>(marked[cell] != 0 ? -kLargestDistance : kLargestDistance);
-    }
-  measure(std::move(grid), 1, size, distances);
-  measure(std::move(others), -1, size, distances);
+  const std::size_t count = marked.size();
+  BURIN_CHECK_EQ(count, static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) *
+                            static_cast<std::size_t>(size.z));
+  Row toMarked(count);
+  Row toOthers(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    toMarked[i] = marked[i] != 0 ? 0 : kLargest;
+    toOthers[i] = marked[i] != 0 ? kLargest : 0;
+  }
+  Scans{toMarked, size}.run();
+  Scans{toOthers, size}.run();
+  std::vector<std::int8_t> distances(count);
+  for (std::size_t i = 0; i < count; ++i)  // one of the two is 0
+    distances[i] = static_cast<std::int8_t>(toMarked[i] - toOthers[i]);
   return distances;
 }
 

@@ -30,6 +30,31 @@ double visibleFraction(const Communicator& comm, PreparedScene& prepared,
   return static_cast<double>(visible) / voxels;
 }
 
+/// Every transfer function begins a little later and is a little fainter: shows nothing that
+/// `scene` does not, so nothing is loaded for it, by the same program.
+Scene edited(Scene scene) {
+  for (Layer& layer : scene.layers) {
+    auto& points = layer.transferFunction.points;
+    if (points.size() > 1) points[0].value += 0.1 * (points[1].value - points[0].value);
+    for (TransferPoint& point : points) point.opacity *= 0.9;
+  }
+  return scene;
+}
+
+/// Collective. Beyond the frame's own time: each frame after an edit against the same scene's next.
+double medianEditMs(TimedDrawing& drawing, const Scene& scene, int repeats) {
+  const Scene other = edited(scene);
+  std::vector<double> beyond;
+  for (int round = -1; round < repeats; ++round) {  // the first one warms up
+    for (const Scene* next : {&other, &scene}) {
+      const double withEdit = drawing.editMs(*next);
+      const double without = drawing.drawMs();
+      if (round >= 0) beyond.push_back(withEdit - without);
+    }
+  }
+  return median(beyond);
+}
+
 void setTimes(SkipMeasurement& row, const std::vector<double>& ms) {
   row.repeats = static_cast<int>(ms.size());
   row.medianMs = median(ms);
@@ -72,6 +97,7 @@ std::array<SkipMeasurement, 2> measureSkip(const Communicator& comm, const std::
     denseMs.push_back(third);
   }
   setTimes(rows[0], onMs);
+  rows[0].editMs = std::max(0.0, medianEditMs(on, prepared.scene, repeats));
   setTimes(rows[1], offMs);
   if (const double reference = median(denseMs); reference > 0) {
     for (SkipMeasurement& row : rows) row.ratioToDense = row.medianMs / reference;

@@ -19,12 +19,15 @@ struct SkipMeasurement {
   std::int64_t samplesVisited = 0, samplesShaded = 0, samplesInOccupiedCells = 0, leaps = 0;
   /// medianMs / the dense scene's in the same rounds; 0 without a dense scene.
   double ratioToDense = 0;
+  /// What changing the transfer functions adds to the frame after it, median; < 0: not measured.
+  double editMs = -1;
 };
 
 /// Collective over `comm`. Draws one scene with skipping on and off and, if given, the dense scene
 /// (every voxel visible, the same size and frame), `repeats` times each, all in turns, so that what
 /// else the machine does meets them alike; before that once each to warm up, and once to count
-/// samples. On and off, in this order.
+/// samples. With skipping on, the transfer functions are also edited, to and fro, as often. On and
+/// off, in this order.
 std::array<SkipMeasurement, 2> measureSkip(const Communicator& comm, const std::string& name,
                                            PreparedScene& prepared, TimedDrawing* dense,
                                            int repeats);

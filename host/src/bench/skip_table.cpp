@@ -78,14 +78,15 @@ std::string diagram(std::span<const std::string> scenes, std::string_view label,
 std::string skipCsv(std::span<const Row> rows) {
   std::string text =
       "scene,visible_fraction,skip,median_ms,samples_visited,samples_shaded,"
-      "samples_in_occupied_cells,leaps,ratio_to_dense,smallest_ms,largest_ms,repeats\n";
+      "samples_in_occupied_cells,leaps,ratio_to_dense,smallest_ms,largest_ms,repeats,edit_ms\n";
   for (const Row& row : rows) {
     const std::string ratio =
         row.ratioToDense > 0 ? fmt::format("{:.5f}", row.ratioToDense) : std::string{};
-    text += fmt::format("{},{:.6g},{},{:.4f},{},{},{},{},{},{:.4f},{:.4f},{}\n", row.scene,
+    const std::string edit = row.editMs >= 0 ? fmt::format("{:.4f}", row.editMs) : std::string{};
+    text += fmt::format("{},{:.6g},{},{:.4f},{},{},{},{},{},{:.4f},{:.4f},{},{}\n", row.scene,
                         row.visibleFraction, row.isSkipping ? "on" : "off", row.medianMs,
                         row.samplesVisited, row.samplesShaded, row.samplesInOccupiedCells,
-                        row.leaps, ratio, row.smallestMs, row.largestMs, row.repeats);
+                        row.leaps, ratio, row.smallestMs, row.largestMs, row.repeats, edit);
   }
   return text;
 }
@@ -94,6 +95,7 @@ std::string skipLine(const Row& on, const Row& off) {
   std::string text = fmt::format("{:<12}{:>8.3f} % visible   on {:>9.3f} ms   off {:>9.3f} ms",
                                  on.scene, 100 * on.visibleFraction, on.medianMs, off.medianMs);
   if (on.ratioToDense > 0) text += fmt::format("   on / dense {:.4f}", on.ratioToDense);
+  if (on.editMs >= 0) text += fmt::format("   edit {:.1f} ms", on.editMs);
   return text + fmt::format("   visited / shaded {:.3f}\n", perShaded(on));
 }
 
@@ -106,6 +108,10 @@ std::string skipTargets(std::span<const Row> rows) {
                      worstRatio(rows, &Row::samplesVisited, &Row::samplesInOccupiedCells), 1.05);
   if (const auto worst = worstRatio(rows, &Row::samplesVisited, &Row::samplesShaded))
     text += fmt::format("  {:<52}{:>8.4f}\n", "samples visited / shaded, worst scene", *worst);
+  double edit = -1;
+  for (const Row& row : rows) edit = std::max(edit, row.editMs);
+  if (edit >= 0)
+    text += targetLine("a transfer-function edit beyond its frame, worst, ms", edit, 50);
   return text.empty() ? text : "with skipping\n" + text;
 }
 

@@ -12,10 +12,14 @@ TimedDrawing::TimedDrawing(const Communicator& comm, PreparedScene& prepared,
       worker_{comm, prepared.scene, *prepared.source, options},
       room_(camera_.image.pixels()) {}
 
-double TimedDrawing::drawOnce(RankStatistics& statistics) {
+double TimedDrawing::drawOnce(RankStatistics& statistics, const Scene* changed) {
   double ms = 0;
   // MPI's own barrier: waiting idly would let the ranks off up to 2 ms apart.
   checkMpi(MPI_Barrier(comm_.get()), "MPI_Barrier");
+  if (changed != nullptr) {
+    const PhaseTimer timer{ms};
+    worker_.update(*changed);
+  }
   collectively(comm_, "drawing", [&] {
     const PhaseTimer timer{ms};
     worker_.draw(camera_, statistics,
@@ -28,6 +32,11 @@ double TimedDrawing::drawOnce(RankStatistics& statistics) {
 double TimedDrawing::drawMs() {
   RankStatistics unused;
   return drawOnce(unused);
+}
+
+double TimedDrawing::editMs(const Scene& scene) {
+  RankStatistics unused;
+  return drawOnce(unused, &scene);
 }
 
 RankStatistics TimedDrawing::count() {

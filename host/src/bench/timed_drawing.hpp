@@ -21,6 +21,10 @@ class TimedDrawing {
   /// that has been used before. Throws CollectiveError if drawing failed on a rank.
   double drawMs();
 
+  /// Collective. The same for a frame of another scene (of the same volume), changing to it
+  /// included.
+  double editMs(const Scene& scene);
+
   /// Collective. The sample counters of one frame, over all ranks; zeros without
   /// WorkerOptions::countSamples.
   RankStatistics count();
@@ -28,7 +32,7 @@ class TimedDrawing {
   const node::Worker& worker() const { return worker_; }
 
  private:
-  double drawOnce(RankStatistics& statistics);
+  double drawOnce(RankStatistics& statistics, const Scene* changed = nullptr);
 
   const Communicator& comm_;
   Camera camera_;
