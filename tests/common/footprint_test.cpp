@@ -50,6 +50,47 @@ TEST(Footprint, ContainsEveryPixelThatMeetsTheBox) {
   EXPECT_GT(hits, 10000);
 }
 
+TEST(Footprint, OfASlabContainsEveryPixelThatMeetsTheBoxThere) {
+  Random random{41};
+  int hits = 0;
+  int smaller = 0;
+  for (const Projection projection : {Projection::kPerspective, Projection::kOrthographic}) {
+    for (int trial = 0; trial < 100; ++trial) {
+      const VolumeGrid grid = test::makeGrid(random, {20, 27, 14}, Axes::kSheared);
+      const IndexBox cells = randomBox(random, grid.cells());
+      const Camera camera =
+          test::randomCamera(random, grid, projection, random.real(0.3, 2), kImage);
+      const DepthRange whole = depthRange(camera, grid, cells);
+      const double from = random.real(whole.nearest, whole.farthest);
+      const DepthRange slab{from, from + 0.2 * (whole.farthest - whole.nearest)};
+      const PixelRect rect = footprint(camera, grid, cells, slab);
+      smaller += rect.pixels() < footprint(camera, grid, cells).pixels() ? 1 : 0;
+      for (int row = 0; row < kImage.height; ++row)
+        for (int column = 0; column < kImage.width; ++column) {
+          const test::Ray ray = test::rayWorld(camera, column + 0.5, row + 0.5);
+          const auto inside = test::depthsInside(grid, cells, camera, ray);
+          if (!inside || inside->begin > slab.farthest || inside->end < slab.nearest) continue;
+          ++hits;
+          ASSERT_TRUE(column >= rect.x0 && column < rect.x1 && row >= rect.y0 && row < rect.y1)
+              << "pixel " << column << ' ' << row;
+        }
+    }
+  }
+  EXPECT_GT(hits, 5000);
+  EXPECT_GT(smaller, 60);
+}
+
+TEST(Footprint, OfASlabBeforeOrBehindTheBoxIsEmpty) {
+  VolumeGrid grid;
+  grid.dims = {21, 21, 21};
+  const Camera camera = orbitCamera({0, 0, 30, 1, 'y', Projection::kPerspective}, grid, kImage);
+  const IndexBox cells{{0, 0, 0}, {20, 20, 20}};
+  const DepthRange whole = depthRange(camera, grid, cells);
+  EXPECT_NEAR(whole.farthest - whole.nearest, 20, 0.01);
+  EXPECT_TRUE(footprint(camera, grid, cells, {whole.nearest - 2, whole.nearest - 1}).empty());
+  EXPECT_TRUE(footprint(camera, grid, cells, {whole.farthest + 1, whole.farthest + 2}).empty());
+}
+
 TEST(Footprint, IsTightInAParallelFrontView) {
   VolumeGrid grid;
   grid.dims = {21, 21, 21};

@@ -11,4 +11,16 @@ namespace burin {
 /// of it lies behind.
 PixelRect footprint(const Camera& camera, const VolumeGrid& grid, const IndexBox& cells);
 
+/// Depths along the view direction from the eye's plane, world units.
+struct DepthRange {
+  double nearest = 0;
+  double farthest = 0;
+};
+/// Of the box of cells, which must not be empty.
+DepthRange depthRange(const Camera& camera, const VolumeGrid& grid, const IndexBox& cells);
+
+/// The same of the part of the box at those depths, which may be nothing.
+PixelRect footprint(const Camera& camera, const VolumeGrid& grid, const IndexBox& cells,
+                    const DepthRange& depths);
+
 }  // namespace burin
