@@ -118,9 +118,22 @@ Codec<Quality> qualityCodec() {
        field("max_error",
              "Largest error asked for, of premultiplied linear colour; instead of step_voxels and "
              "termination",
-             &Q::maxError, number({.minimum = 1e-4, .maximum = 0.5}))},
-      [](const At& at, const Q&) {
+             &Q::maxError, number({.minimum = 1e-4, .maximum = 0.5})),
+       field<Q, std::string>(
+           "combine",
+           "How layers and lines at one sample become one: sum, or over, each drawn over the one "
+           "before (slices only; depends on the step)",
+           word({"sum", "over"}),
+           [](const Q& q) {
+             return std::optional<std::string>{q.combine == Combine::kOver ? "over" : "sum"};
+           },
+           [](Q& q, const std::string& value) {
+             q.combine = value == "over" ? Combine::kOver : Combine::kSum;
+           })},
+      [](const At& at, const Q& quality) {
         if (at.node.find("max_error") == nullptr) return;
+        if (quality.combine == Combine::kOver)
+          at.fail("'max_error' is the distance to what 'combine' \"sum\" converges to");
         for (const char* key : {"step_voxels", "termination"})
           if (at.node.find(key) != nullptr)
             at.fail("'max_error' chooses '{}' itself: give one of the two", key);

@@ -21,7 +21,8 @@ class Maker {
     s.layers = several<Layer>(1, [&] { return layer(); });
     s.clip = several<ClipPlane>(0, [&] { return ClipPlane{vector(), any()}; });
     if (chance())
-      s.quality = {real(kSmallestStepVoxels, 100), real(0, 0.5), chance(), std::nullopt};
+      s.quality = {real(kSmallestStepVoxels, 100), real(0, 0.5), chance(), std::nullopt,
+                   chance() ? Combine::kSum : Combine::kOver};
     else
       s.quality.maxError = real(1e-4, 0.5);
     return s;

@@ -25,7 +25,7 @@ TEST(SceneError, UnknownKeyNamesPlacePathAndNearest) {
             "s.json:2:1: qualty: unknown key; did you mean 'quality'?");
   EXPECT_EQ(complaint(with(R"("quality": { "error": 0.1 })")),
             "s.json:2:14: quality.error: unknown key; expected one of 'step_voxels', "
-            "'termination', 'preintegrated', 'max_error'");
+            "'termination', 'preintegrated', 'max_error', 'combine'");
 }
 
 TEST(SceneError, ColumnsCountCharactersAndTabs) {
@@ -222,6 +222,10 @@ INSTANTIATE_TEST_SUITE_P(
              "quality.termination: expected a number in [0, 0.5], found 0.6"},
         Case{R"("quality": { "max_error": 0.01, "step_voxels": 1 })",
              "quality: 'max_error' chooses 'step_voxels' itself: give one of the two"},
+        Case{R"("quality": { "combine": "ovr" })",
+             "quality.combine: 'ovr' is unknown; did you mean 'over'?"},
+        Case{R"("quality": { "max_error": 0.01, "combine": "over" })",
+             "quality: 'max_error' is the distance to what 'combine' \"sum\" converges to"},
         Case{R"("quality": { "preintegrated": 1 })",
              "quality.preintegrated: expected true or false, found 1"}));
 

@@ -80,6 +80,12 @@ struct ClipPlane {
   friend bool operator==(const ClipPlane&, const ClipPlane&) = default;
 };
 
+/// How several contributions to one sample (layers, and lines on what they lie on) become one.
+enum class Combine {
+  kSum,   ///< simultaneous media: extinctions add up, lines replace colour
+  kOver,  ///< one drawn over the other, as Lum & Ma did; changes with the step
+};
+
 struct Quality {
   double stepVoxels = 0.5;
   double termination = 0.002;  ///< rays end when transmittance < termination; 0: never
@@ -89,6 +95,7 @@ struct Quality {
   /// Largest difference (premultiplied linear RGBA) to the converged picture that is asked for: the
   /// renderer then chooses the step for each view, and rays end at an eighth of it.
   std::optional<double> maxError;
+  Combine combine = Combine::kSum;
   friend bool operator==(const Quality&, const Quality&) = default;
 };
 
