@@ -12,7 +12,8 @@ add_library(burin_gl_loader STATIC ${glad_dir}/src/gl.c)
 target_include_directories(burin_gl_loader PUBLIC $<BUILD_INTERFACE:${glad_dir}/include>)
 
 set(shader_files
-  fullscreen.vert lattice.glsl volume.glsl skip.glsl preintegration.glsl sides.glsl shading.glsl raycast.glsl
+  fullscreen.vert lattice.glsl ownership.glsl opacity.glsl volume.glsl skip.glsl preintegration.glsl sides.glsl
+  shading.glsl raycast.glsl slice.glsl resolve.glsl
   styles/surface.glsl styles/light.glsl styles/tone.glsl styles/edges.glsl styles/specular.glsl)
 list(TRANSFORM shader_files PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/shaders/ OUTPUT_VARIABLE shader_paths)
 set(embedded ${CMAKE_CURRENT_BINARY_DIR}/embedded_shaders.cpp)
@@ -29,6 +30,8 @@ burin_library(node
           src/visible_values.cpp src/value_scale.cpp src/value_ranges.cpp src/clip_planes.cpp
           src/visible_blocks.cpp src/macrocells.cpp src/chessboard_distance.cpp
           src/step_map.cpp src/brick_texture.cpp src/brick.cpp src/cost_estimate.cpp
-          src/raycaster.cpp src/worker.cpp ${embedded}
+          src/program_uniforms.cpp src/transfer_textures.cpp src/sample_counters.cpp
+          src/frame_target.cpp src/layer_images.cpp src/brick_renderer.cpp src/raycaster.cpp
+          src/slicer.cpp src/technique.cpp src/worker.cpp ${embedded}
   PUBLIC burin::volumes burin::compositor
   PRIVATE $<BUILD_INTERFACE:burin_gl_loader> ${CMAKE_DL_LIBS})

@@ -105,6 +105,7 @@ StyleSpec edgesStyle() {
   return {.name = "edges",
           .help = "lines where a surface turns away from the eye",
           .needsGradient = true,
+          .drawsLines = true,
           .ghostLayers = 1,
           .parameters = {
               {.name = "strength",
@@ -130,6 +131,7 @@ StyleSpec specularStyle() {
   return {.name = "specular",
           .help = "highlights in the lights' colours",
           .needsGradient = true,
+          .drawsLines = true,
           .ghostLayers = 1,
           .parameters = {
               {.name = "strength",

@@ -6,19 +6,10 @@
 
 layout(location = 0) out vec4 result;
 
-uniform vec3 brickLo, brickHi;   // owns samples lo <= p < hi; +-1e30 at the volume's own faces
 uniform float termination;       // a ray ends when its transmittance is below; 0: never
 #ifdef SEVERAL_BRICKS
 uniform sampler2D frame;         // the target: what the bricks in front have drawn
 #endif
-
-#ifdef COUNT_SAMPLES
-layout(std430, binding = 0) buffer Counters { uint visited, shaded, inOccupied, leaps; } counters;
-#endif
-
-bool owned(vec3 position) {
-  return all(greaterThanEqual(position, brickLo)) && all(lessThan(position, brickHi));
-}
 
 // Opacity of this brick's part at which the ray ends; 0 or less if the bricks in front are enough.
 float sufficientOpacity() {
@@ -28,11 +19,6 @@ float sufficientOpacity() {
 #else
   return 1.0 - termination;
 #endif
-}
-
-// 1 - exp(-x), accurate for small x (the driver's exp is not).
-float opacityOf(float x) {
-  return x < 0.01 ? x * (1.0 - 0.5 * x * (1.0 - x * (1.0 / 3.0))) : 1.0 - exp(-x);
 }
 
 void main() {

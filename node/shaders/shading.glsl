@@ -48,10 +48,16 @@ Surface surfaceOf(vec3 gradient, float magnitude, float noiseFloor, int orientat
   return Surface(normal, m, smoothstep(noiseFloor, 2.0 * noiseFloor, m), toEye);
 }
 
+// Pass II: what lines replace of what they lie on, and their colour.
+float amountOfLines(Shading s) { return clamp(s.lineWeight, 0.0, 1.0); }
+vec3 colourOfLines(Shading s) {
+  return s.lineWeight > 0.0 ? s.lineColour / s.lineWeight : vec3(0.0);
+}
+
 // Pass II over pass I: lines replace colour. `classified` is the extinction before any style.
 void drawLines(inout Shading s, float classified) {
   if (s.lineWeight <= 0.0) return;
-  float amount = min(s.lineWeight, 1.0);
-  s.colour = mix(s.colour, s.lineColour / s.lineWeight, amount);
+  float amount = amountOfLines(s);
+  s.colour = mix(s.colour, colourOfLines(s), amount);
   s.extinction = max(s.extinction, classified * amount);
 }

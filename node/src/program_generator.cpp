@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
+
+#include "burin/common/error.hpp"
 
 namespace burin::node {
 namespace {
@@ -114,7 +117,9 @@ std::string normalOrientation(const StyleSettings* gradient) {
 /// Everything generated for the layers, in the order in which it must appear.
 class LayerCode {
  public:
-  explicit LayerCode(const Scene& scene) : scene_{scene}, gradient_{gradientNeeded(scene)} {
+  /// All passes in one, or one of them.
+  LayerCode(const Scene& scene, std::optional<LayerPass> pass)
+      : scene_{scene}, pass_{pass}, gradient_{gradientNeeded(scene)} {
     for (std::size_t i = 0; i < scene.layers.size(); ++i) add(i);
   }
 
@@ -139,7 +144,8 @@ class LayerCode {
         i, colourOf(i));
     if (gradientNeededBy(layer)) addSurface(i, layer);
     addStyles(i, layer);
-    body_ += "    colour += s.extinction * s.colour;\n    extinction += s.extinction;\n  }\n";
+    addResult(i);
+    body_ += "  }\n";
   }
 
   /// The class of the middle's value.
@@ -199,7 +205,23 @@ class LayerCode {
       body_ += fmt::format("    {{\n    {0}_parameters p;\n{1}    apply_{0}(s, {2}p);\n    }}\n",
                            style.name, code.statements, style.needsGradient ? "g, " : "");
     }
-    body_ += fmt::format("    drawLines(s, extinction{});\n", i);
+  }
+
+  void addResult(std::size_t i) {
+    if (!pass_) {
+      body_ += fmt::format(
+          "    drawLines(s, extinction{});\n"
+          "    colour += s.extinction * s.colour;\n    extinction += s.extinction;\n",
+          i);
+    } else if (*pass_ == LayerPass::kColour) {
+      body_ += "    colour = s.colour;\n    extinction = s.extinction;\n";
+    } else {
+      uniforms_ += "float lineAmount;\n";  // of the segment shaded last
+      body_ += fmt::format(
+          "    lineAmount = amountOfLines(s);\n    colour = colourOfLines(s);\n"
+          "    extinction = extinction{} * lineAmount;\n",
+          i);
+    }
   }
 
   std::string styleCode() const {
@@ -233,11 +255,13 @@ class LayerCode {
           "  vec3 gradient = {} * volumeDifferences(coordinate);\n"
           "  float magnitude = length(gradient);\n",
           toGradient);
-    return text + "  colour = vec3(0.0);\n  extinction = 0.0;\n" + body_ +
-           "  if (extinction > 0.0) colour *= 1.0 / extinction;\n}\n";
+    text += "  colour = vec3(0.0);\n  extinction = 0.0;\n" + body_;
+    if (!pass_) text += "  if (extinction > 0.0) colour *= 1.0 / extinction;\n";
+    return text + "}\n";
   }
 
   const Scene& scene_;
+  std::optional<LayerPass> pass_;
   bool gradient_;
   CurveSet curves_;
   std::string uniforms_, prepare_, ends_, classify_, total_, body_;
@@ -268,7 +292,11 @@ std::string magnitudeUniform(std::size_t layer) {
   return fmt::format("magnitude{}", layer);
 }
 
-ShaderSource generateRaycastProgram(const Scene& scene, const ProgramOptions& options) {
+namespace {
+
+/// Everything before the main function.
+std::string programHead(const Scene& scene, const ProgramOptions& options,
+                        std::optional<LayerPass> pass) {
   std::string text = "#version 450 core\n";
   text += fmt::format("#define LIGHTS {}\n#define CLIP_PLANES {}\n", scene.lights.size(),
                       scene.clip.size());
@@ -277,12 +305,38 @@ ShaderSource generateRaycastProgram(const Scene& scene, const ProgramOptions& op
   if (options.severalBricks) text += "#define SEVERAL_BRICKS\n";
   if (scene.quality.preintegrated)
     text += fmt::format("#define PREINTEGRATED\n#define LAYERS {}\n", scene.layers.size());
-  for (const char* file : {"lattice.glsl", "volume.glsl", "skip.glsl", "shading.glsl"})
+  for (const char* file : {"lattice.glsl", "ownership.glsl", "opacity.glsl", "volume.glsl",
+                           "skip.glsl", "shading.glsl"})
     text += fmt::format("#include \"{}\"\n", file);
   if (scene.quality.preintegrated) text += "#include \"preintegration.glsl\"\n";
-  text += LayerCode{scene}.text();
-  text += "#include \"raycast.glsl\"\n";
-  return expandIncludes(text, "raycast program");
+  return text + LayerCode{scene, pass}.text();
+}
+
+}  // namespace
+
+ShaderSource generateRaycastProgram(const Scene& scene, const ProgramOptions& options) {
+  return expandIncludes(programHead(scene, options, {}) + "#include \"raycast.glsl\"\n",
+                        "raycast program");
+}
+
+ShaderSource generateSliceProgram(const Scene& scene, LayerPass pass, SliceTarget target,
+                                  const ProgramOptions& options) {
+  BURIN_CHECK_EQ(scene.layers.size(), 1u);
+  std::string text = programHead(scene, options, pass);
+  if (pass == LayerPass::kLines) text += "#define LINES_ONLY\n";
+  if (target == SliceTarget::kLayerImage) text += "#define LAYER_IMAGE\n";
+  return expandIncludes(text + "#include \"slice.glsl\"\n", "slice program");
+}
+
+ShaderSource generateResolveProgram(std::size_t layers) {
+  return expandIncludes(fmt::format("#version 450 core\n#define LAYERS {}\n"
+                                    "#include \"opacity.glsl\"\n#include \"resolve.glsl\"\n",
+                                    layers),
+                        "resolve program");
+}
+
+ShaderSource fullscreenVertexSource() {
+  return expandIncludes("#version 450 core\n#include \"fullscreen.vert\"\n", "vertex program");
 }
 
 }  // namespace burin::node

@@ -8,7 +8,7 @@
 
 namespace burin::node {
 
-/// What decides the text of the ray-cast program beside the scene's layers.
+/// What decides the text of a program beside the scene's layers.
 struct ProgramOptions {
   bool invalidVoxels = false;
   bool countSamples = false;
@@ -19,6 +19,26 @@ struct ProgramOptions {
 /// scenes that differ in parameter values alone give the same text. Adding a style needs no change
 /// here: its parameters come from styleTable(), its code from styles/<name>.glsl.
 ShaderSource generateRaycastProgram(const Scene& scene, const ProgramOptions& options);
+
+/// The passes that a layer takes in the slices technique (Lum & Ma, Figure 10).
+enum class LayerPass {
+  kColour,  ///< pass I: the transfer function's colour and extinction under all styles but lines
+  kLines,   ///< pass II: the styles that draw lines
+};
+/// Where slices are drawn.
+enum class SliceTarget {
+  kFrame,       ///< blended over the frame
+  kLayerImage,  ///< into an image of their layer, which the resolve program reads
+};
+
+/// One pass of a scene's only layer on one slice. Styles of the other pass should not be in it.
+ShaderSource generateSliceProgram(const Scene& scene, LayerPass pass, SliceTarget target,
+                                  const ProgramOptions& options);
+/// A slice from its layers' images.
+ShaderSource generateResolveProgram(std::size_t layers);
+
+/// The vertex program of all of them: one triangle that covers the target.
+ShaderSource fullscreenVertexSource();
 
 /// Names of the uniforms that the generated program declares, in one place for both sides.
 std::string parameterUniform(std::size_t layer, std::string_view style, std::string_view parameter);

@@ -11,6 +11,7 @@
 #include "clip_planes.hpp"
 #include "cost_estimate.hpp"
 #include "raycaster.hpp"
+#include "slicer.hpp"
 #include "visible_blocks.hpp"
 
 namespace burin::node {
@@ -48,6 +49,15 @@ double unevenness(const BrickTree& tree, const CostEstimate& cost) {
     largest = std::max(largest, share);
   }
   return sum > 0 ? largest * tree.ownerCount() / sum : 1;
+}
+
+std::unique_ptr<BrickRenderer> makeRenderer(const Scene& scene, const ProgramVolume& volume,
+                                            const WorkerOptions& options,
+                                            bool severalBricks) {
+  const DrawOptions how{options.skip, options.countSamples, severalBricks};
+  if (options.technique == Technique::kSlices)
+    return std::make_unique<Slicer>(scene, volume, how, options.precision);
+  return std::make_unique<Raycaster>(scene, volume, how);
 }
 
 /// Collective. Voxels straight into textures; what is staged is a few times kSlabBytes.
@@ -91,7 +101,7 @@ struct Worker::State {
   std::vector<IndexBox> parts;              ///< by brick: its cells that its owner has loaded
   std::vector<BrickId> mine;                ///< this rank's bricks
   std::optional<OffscreenContext> context;  ///< before everything that holds GL names
-  std::optional<Raycaster> raycaster;
+  std::unique_ptr<BrickRenderer> renderer;
   std::vector<Brick> bricks;  ///< of mine, those of which something is loaded
 
   State(const Communicator& givenComm, BrickSource& givenSource, const Scene& givenScene,
@@ -166,7 +176,7 @@ void Worker::State::measure() {
   hasGradients = needed;
   scale = valueScaleOf(source.info().type, survey);
   blocks = VisibleBlocks{survey, scale};
-  raycaster.reset();  // its programs know the gradients' scale
+  renderer.reset();  // its programs know the gradients' scale
 }
 
 /// Collective. Splits the volume for the scene and loads what it can show of this rank's bricks.
@@ -191,12 +201,12 @@ void Worker::State::load() {
     if (!draws) return;  // an idle rank needs no OpenGL
     if (!context) context.emplace(ContextOptions{threads});
     context->makeCurrent();
-    if (raycaster)
-      raycaster->setScene(scene);
+    if (renderer)
+      renderer->setScene(scene);
     else
-      raycaster.emplace(scene, volume.grid, scale,
-                        Raycaster::GradientScales{survey.gradient999, survey.largestGradient},
-                        RaycastOptions{options.skip, options.countSamples, mine.size() > 1});
+      renderer = makeRenderer(
+          scene, {volume.grid, scale, {survey.gradient999, survey.largestGradient}}, options,
+          mine.size() > 1);
     for (const BrickId id : mine) {
       if (part(id).empty()) continue;
       bricks.emplace_back(id, part(id), ghosts, volume, scale);
@@ -218,11 +228,15 @@ void Worker::State::classify() {
 Worker::Worker(const Communicator& comm, const Scene& scene, BrickSource& source,
                const WorkerOptions& options)
     : state_{std::make_unique<State>(comm, source, scene, options)} {
+  collectively(comm, "the scene",
+               [&] { checkTechnique(scene, options.technique, options.precision); });
   state_->load();
 }
 
 void Worker::update(const Scene& scene) {
   State& state = *state_;
+  collectively(state.comm, "the scene",
+               [&] { checkTechnique(scene, state.options.technique, state.options.precision); });
   const bool sameShown = showsTheSame(state.scene, scene);
   Shown shown = sameShown ? state.shown : state.whatShows(scene);
   const bool mustLoad =
@@ -233,7 +247,7 @@ void Worker::update(const Scene& scene) {
   const auto apply = [&] {
     if (state.bricks.empty()) return;
     state.context->makeCurrent();
-    state.raycaster->setScene(state.scene);
+    state.renderer->setScene(state.scene);
     if (!sameShown) state.classify();
   };
   try {
@@ -309,7 +323,7 @@ compositor::SubimageView<Rgba> Worker::drawThese(std::span<const Brick* const> b
     statistics.residentVoxelBytes += static_cast<std::int64_t>(brick->residentBytes());
   if (bricks.empty()) return {camera.image, {}, {}};
   state_->context->makeCurrent();
-  return state_->raycaster->draw(camera, bricks, statistics, room, steps);
+  return state_->renderer->draw(camera, bricks, statistics, room, steps);
 }
 
 }  // namespace burin::node

@@ -15,10 +15,6 @@ using test::sceneWithStyle;
 using testing::HasSubstr;
 using testing::Not;
 
-ShaderSource vertex() {
-  return expandIncludes("#version 450 core\n#include \"fullscreen.vert\"\n", "vertex program");
-}
-
 TEST(ProgramGenerator, HoldsOnlyWhatTheSceneUses) {
   const std::string plain = generateRaycastProgram(sceneWithStyle("plain"), {}).text;
   EXPECT_THAT(plain, Not(HasSubstr("apply_")));
@@ -50,8 +46,29 @@ TEST(ProgramGenerator, EveryPermutationCompiles) {
         scene.layers[0].styles.push_back(defaultSettings(*findStyle(styles[i])));
     const ProgramOptions options{.invalidVoxels = set % 3 == 0, .countSamples = set % 4 == 0};
     if (set % 5 == 0) scene.clip = {{{1, 0, 0}, 0}, {{0, 1, 0}, 0}};
-    EXPECT_NO_THROW((GlProgram{vertex(), generateRaycastProgram(scene, options)})) << set;
+    EXPECT_NO_THROW((GlProgram{fullscreenVertexSource(), generateRaycastProgram(scene, options)}))
+        << set;
   }
+}
+
+TEST(ProgramGenerator, EverySlicePassCompiles) {
+  const OffscreenContext context{{}};
+  unsigned number = 0;
+  for (const std::string& style : test::drawnStyles())
+    for (const LayerPass pass : {LayerPass::kColour, LayerPass::kLines})
+      for (const SliceTarget target : {SliceTarget::kFrame, SliceTarget::kLayerImage}) {
+        Scene scene = sceneWithStyle(style);
+        scene.quality.preintegrated = number % 2 == 0;
+        if (number % 5 == 0) scene.clip = {{{1, 0, 0}, 0}};
+        const ProgramOptions options{.invalidVoxels = number % 3 == 0,
+                                     .countSamples = number % 4 == 0};
+        EXPECT_NO_THROW((GlProgram{fullscreenVertexSource(),
+                                   generateSliceProgram(scene, pass, target, options)}))
+            << style << " " << number;
+        ++number;
+      }
+  for (const std::size_t layers : {1u, 2u, 16u})
+    EXPECT_NO_THROW((GlProgram{fullscreenVertexSource(), generateResolveProgram(layers)}));
 }
 
 TEST(ProgramGenerator, EveryWordOfEveryStyleCompiles) {
@@ -65,7 +82,7 @@ TEST(ProgramGenerator, EveryWordOfEveryStyleCompiles) {
         std::erase_if(scene.layers[0].styles,
                       [&](const StyleSettings& s) { return s.name == style.name; });
         scene.layers[0].styles.push_back(settings);
-        EXPECT_NO_THROW((GlProgram{vertex(), generateRaycastProgram(scene, {})}))
+        EXPECT_NO_THROW((GlProgram{fullscreenVertexSource(), generateRaycastProgram(scene, {})}))
             << style.name << " " << word;
       }
 }
@@ -77,7 +94,7 @@ TEST(GlProgram, ErrorsNameFileAndLine) {
       "  undeclared = 1.0;\n}\n",
       "broken.frag");
   try {
-    const GlProgram program{vertex(), broken};
+    const GlProgram program{fullscreenVertexSource(), broken};
     FAIL() << "compiled";
   } catch (const Error& error) {
     EXPECT_THAT(error.what(), HasSubstr("broken.frag:5"));

@@ -34,7 +34,9 @@ void expectSameAsAlone(const Scene& scene, node::BrickSource& source,
   node::Worker together{world(), scene, source, options};
   std::optional<node::Worker> alone;
   const Communicator self{MPI_COMM_SELF};
-  if (world().isRoot()) alone.emplace(self, scene, source, node::WorkerOptions{.bricks = 1});
+  if (world().isRoot())
+    alone.emplace(self, scene, source,
+                  node::WorkerOptions{.bricks = 1, .technique = options.technique});
   for (const Camera& camera : cameras) {
     const std::optional<Image<Rgba>> frame = drawTogether(together, camera);
     ASSERT_EQ(frame.has_value(), world().isRoot());
@@ -73,6 +75,15 @@ TEST(RankInvariance, MoreBricksThanRanks) {
   ArraySource source = smoothVolume(gridOf({40, 40, 30}));
   const Scene scene = resolved(sceneWithStyle("all"), source);
   expectSameAsAlone(scene, source, cameras(scene, source.info().grid), {.bricks = 21});
+}
+
+TEST(RankInvariance, Slices) {
+  ArraySource source = smoothVolume(gridOf({30, 26, 22}));
+  Scene scene = sceneWithStyle("edges");
+  scene.quality.stepVoxels = 1;
+  scene = resolved(scene, source);
+  expectSameAsAlone(scene, source, cameras(scene, source.info().grid),
+                    {.bricks = 5, .technique = node::Technique::kSlices});
 }
 
 TEST(RankInvariance, DedicatedHost) {

@@ -39,6 +39,8 @@ struct StyleSpec {
   std::string_view name;
   std::string_view help;
   bool needsGradient = false;
+  /// Pass II (Lum & Ma): adds to the line and leaves colour and extinction alone.
+  bool drawsLines = false;
   int ghostLayers = 0;     ///< voxels beyond the brick's own that its look-ups touch
   bool hasSnippet = true;  ///< false: settings read by shared code (gradient)
   std::vector<ParameterSpec> parameters;

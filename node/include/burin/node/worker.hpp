@@ -14,6 +14,7 @@
 #include "burin/node/brick_source.hpp"
 #include "burin/node/step_map.hpp"
 #include "burin/node/survey.hpp"
+#include "burin/node/technique.hpp"
 
 namespace burin::node {
 
@@ -27,6 +28,8 @@ struct WorkerOptions {
   /// Loads all of a brick, not only what the scene may show of it: no edit of transfer functions or
   /// clip planes then loads anything.
   bool wholeBricks = false;
+  Technique technique = Technique::kRaycast;
+  Precision precision = Precision::kFloat;  ///< kRaycast: must be kFloat
   /// Overrides what the scene's styles declare: tests show with it that the declaration is needed.
   std::optional<int> ghostLayers = std::nullopt;
 };
@@ -37,7 +40,8 @@ class Worker {
  public:
   /// Collective. Surveys the volume, splits it, loads what the scene may show of this rank's bricks
   /// (also without skipping: the same textures, so the same picture). A rank of whose bricks
-  /// nothing shows has no OpenGL context. `scene` must be resolved.
+  /// nothing shows has no OpenGL context. `scene` must be resolved. Throws CollectiveError, also if
+  /// the scene cannot be drawn by that technique (checkTechnique).
   Worker(const Communicator& comm, const Scene& scene, BrickSource& source,
          const WorkerOptions& options);
   ~Worker();

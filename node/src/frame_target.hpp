@@ -1,0 +1,35 @@
+#pragma once
+
+#include "brick_renderer.hpp"
+#include "burin/common/image.hpp"
+#include "gl.hpp"
+
+namespace burin::node {
+
+/// The pixels of a frame that bricks are blended into. Its OffscreenContext must be current.
+class FrameTarget {
+ public:
+  /// `format`: GL_RGBA32F, GL_RGBA16F or GL_RGBA8.
+  explicit FrameTarget(GLenum format) : format_{format}, framebuffer_{makeFramebuffer()} {}
+
+  /// Of that many pixels from now on. Throws Error{kRank} if there is no such target.
+  void resize(ImageSize size);
+  /// Makes it the target of draws, with `area` transparent and nothing drawn outside of it until
+  /// the scissor is set anew.
+  void begin(const PixelRect& area);
+  GLuint texture() const { return texture_.id(); }
+  void bind() const { gl().BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id()); }
+  /// What was drawn in `area`, as floats in the memory that `room` gives.
+  std::span<const Rgba> read(const PixelRect& area, const PixelRoom& room) const;
+
+ private:
+  GLenum format_;
+  Texture texture_;
+  Framebuffer framebuffer_;
+  ImageSize size_;
+};
+
+/// Throws Error{kRank} if pixels of that format cannot be drawn into.
+void checkComplete(const Framebuffer& framebuffer, ImageSize size);
+
+}  // namespace burin::node

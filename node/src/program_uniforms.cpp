@@ -1,0 +1,156 @@
+#include "program_uniforms.hpp"
+
+#include <algorithm>
+
+#include "burin/common/sample_lattice.hpp"
+#include "clip_planes.hpp"
+#include "program_generator.hpp"
+#include "transfer_textures.hpp"
+
+namespace burin::node {
+namespace {
+
+constexpr float kFar = 1e30f;  // kFar in lattice.glsl
+
+glm::vec3 toFloat(const glm::dvec3& v) {
+  return glm::vec3{v};
+}
+
+/// curve[0].x is the start value; the others (x, length, slope) of each linear piece.
+std::vector<glm::vec3> curvePieces(const Curve& curve) {
+  std::vector<glm::vec3> pieces{{static_cast<float>(curve.points.front().y), 0, 0}};
+  for (std::size_t i = 1; i < curve.points.size(); ++i) {
+    const glm::dvec2 from = curve.points[i - 1];
+    const glm::dvec2 step = curve.points[i] - from;
+    pieces.emplace_back(glm::vec3{glm::dvec3{from.x, step.x, step.y / step.x}});
+  }
+  return pieces;
+}
+
+/// World gradient magnitude that counts as 1 in a program before a layer's own scale.
+double gradientUnit(const GradientScales& gradients) {
+  if (gradients.percentile > 0) return gradients.percentile;
+  return gradients.maximum > 0 ? gradients.maximum : 1.0;
+}
+
+void setTransferUniforms(const GlProgram& program, const TransferTable& table,
+                         const ValueScale& scale, std::size_t number, GLuint unit) {
+  const auto bins = static_cast<double>(table.entries.size() - 1);
+  program.set(visibleBinsUniform(number), glm::vec2{table.visibleBins()});
+  program.set(transferUniform(number), static_cast<int>(unit));
+  program.set(extinctionUniform(number), static_cast<int>(unit + 1));
+  program.set(
+      transferScaleUniform(number),
+      glm::vec4{glm::dvec4{scale.stored(table.first),
+                           bins * scale.range / (table.last - table.first), bins, 1 / (bins + 2)}});
+}
+
+void setStyleUniforms(const GlProgram& program, const Layer& layer, const GradientScales& gradients,
+                      std::size_t number) {
+  const StyleSettings gradient = [&] {
+    const StyleSettings* own = layer.style("gradient");
+    return own != nullptr ? *own : defaultSettings(*findStyle("gradient"));
+  }();
+  const bool byMaximum = gradient.word("magnitude") == "maximum";
+  const double unit = byMaximum ? gradients.maximum : gradients.percentile;
+  program.set(magnitudeUniform(number),
+              static_cast<float>(unit > 0 ? gradientUnit(gradients) / unit : 0.0));
+  program.set(parameterUniform(number, "gradient", "noise_floor"),
+              static_cast<float>(gradient.number("noise_floor")));
+
+  for (const StyleSettings& settings : layer.styles) {
+    const StyleSpec& style = *findStyle(settings.name);
+    for (std::size_t i = 0; i < style.parameters.size(); ++i) {
+      const std::string_view parameter = style.parameters[i].name;
+      const std::string name = parameterUniform(number, style.name, parameter);
+      if (const auto* real = std::get_if<double>(&settings.values[i]))
+        program.set(name, static_cast<float>(*real));
+      else if (const auto* colour = std::get_if<Colour>(&settings.values[i]))
+        program.set(name, toFloat(colour->linear()));
+      else if (const auto* curve = std::get_if<Curve>(&settings.values[i]))
+        program.set(curveUniform(number, style.name, parameter), curvePieces(*curve));
+    }
+  }
+}
+
+}  // namespace
+
+void setSceneUniforms(const GlProgram& program, const Scene& scene, const ProgramVolume& volume,
+                      std::span<const TransferTable> tables, GLuint firstTransferUnit) {
+  program.set("volume", static_cast<int>(kVolumeUnit));
+  program.set("distanceMap", static_cast<int>(kDistanceUnit));
+  const Box box = volume.grid.boxIndex();
+  const glm::dvec3 centre = volume.grid.centreIndex();
+  program.set("boxLo", toFloat(box.lo - centre));
+  program.set("boxHi", toFloat(box.hi - centre));
+
+  program.set("one", 1.0f);
+  program.set("clipPlane", centredClipPlanes(scene, volume.grid));
+
+  // Differences of stored values at ±1 voxel → world gradient over gradientUnit().
+  program.set("differencesToGradient",
+              glm::mat3{glm::transpose(volume.grid.worldToIndex()) *
+                        (0.5 * volume.scale.range / gradientUnit(volume.gradients))});
+
+  std::vector<glm::vec3> lightColours;
+  for (const Light& light : scene.lights)
+    lightColours.push_back(toFloat(light.colour.linear() * light.intensity));
+  program.set("lightColours", lightColours);
+  for (std::size_t i = 0; i < scene.layers.size(); ++i) {
+    setTransferUniforms(program, tables[i], volume.scale, i,
+                        firstTransferUnit + kUnitsPerLayer * static_cast<GLuint>(i));
+    setStyleUniforms(program, scene.layers[i], volume.gradients, i);
+  }
+}
+
+void setViewUniforms(const GlProgram& program, const Scene& scene, const Camera& camera) {
+  const double slope = camera.projection == Projection::kPerspective ? camera.pixelSize : 0.0;
+  program.set("imageCentre", glm::vec2{0.5f * static_cast<float>(camera.image.width),
+                                       0.5f * static_cast<float>(camera.image.height)});
+  program.set("pixelSlope", static_cast<float>(slope));
+  program.set("eyeward", toFloat(-camera.forward));
+  program.set("eyewardX", toFloat(-slope * camera.right));
+  program.set("eyewardY", toFloat(slope * camera.up));
+  std::vector<glm::vec3> lights;
+  for (const Light& light : scene.lights)
+    lights.push_back(toFloat(lightDirectionWorld(light, camera)));
+  program.set("lightDirections", lights);
+}
+
+void setStepUniforms(const GlProgram& program, const Camera& camera, const VolumeGrid& grid,
+                     double stepVoxels) {
+  const SampleLattice lattice = makeSampleLattice(camera, grid, stepVoxels);
+  program.set("exitMargin", static_cast<float>(1e-3 / std::max(stepVoxels, 1.0)));
+  program.set("base", toFloat(lattice.base));
+  program.set("baseX", toFloat(lattice.baseX));
+  program.set("baseY", toFloat(lattice.baseY));
+  program.set("along", toFloat(lattice.step));
+  program.set("alongX", toFloat(lattice.stepX));
+  program.set("alongY", toFloat(lattice.stepY));
+  program.set("nearPlane", std::max(static_cast<float>(lattice.nearPlane), -kFar));
+  program.set("stepWorld", static_cast<float>(lattice.stepWorld));
+}
+
+void setBrickUniforms(const GlProgram& program, const VolumeGrid& grid, const Brick& brick) {
+  const glm::dvec3 centre = grid.centreIndex();
+  const glm::ivec3 cells = grid.cells();
+  glm::vec3 lo = toFloat(glm::dvec3{brick.cells().lo} - centre);
+  glm::vec3 hi = toFloat(glm::dvec3{brick.cells().hi} - centre);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (brick.cells().lo[axis] == 0) lo[axis] = -kFar;
+    if (brick.cells().hi[axis] == cells[axis]) hi[axis] = kFar;
+  }
+  program.set("brickLo", lo);
+  program.set("brickHi", hi);
+  const IndexBox& stored = brick.storedVoxels();
+  program.set("textureOffset", toFloat(centre - glm::dvec3{stored.lo} + 0.5));
+  program.set("textureScale", toFloat(1.0 / glm::dvec3{stored.size()}));
+  program.set("cellOffset", toFloat(centre - glm::dvec3{brick.mapOrigin()}));
+}
+
+void bindTextures(const Brick& brick) {
+  gl().BindTextureUnit(kVolumeUnit, brick.volumeTexture());
+  gl().BindTextureUnit(kDistanceUnit, brick.distanceTexture());
+}
+
+}  // namespace burin::node

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <span>
+
+#include "brick.hpp"
+#include "burin/common/camera.hpp"
+#include "burin/common/scene.hpp"
+#include "gl_program.hpp"
+#include "transfer_table.hpp"
+#include "value_scale.hpp"
+
+namespace burin::node {
+
+/// World gradient magnitude (data units) that counts as m = 1, by percentile and by maximum; 0
+/// where the volume has no gradients.
+struct GradientScales {
+  double percentile = 0;
+  double maximum = 0;
+};
+
+/// What every program that draws a volume knows of it.
+struct ProgramVolume {
+  VolumeGrid grid;
+  ValueScale scale;
+  GradientScales gradients;
+};
+
+inline constexpr GLuint kVolumeUnit = 0;
+inline constexpr GLuint kDistanceUnit = 1;
+inline constexpr GLuint kFrameUnit = 2;
+inline constexpr GLuint kFirstTransferUnit = 3;
+
+// The uniforms of lattice.glsl, volume.glsl, skip.glsl, shading.glsl, ownership.glsl and of the
+// generated layers, which all techniques share. Setting one that a program lacks does nothing.
+
+/// What follows from the scene alone. `tables`: of the scene's layers, whose textures are bound as
+/// TransferTextures::bind(firstTransferUnit) does.
+void setSceneUniforms(const GlProgram& program, const Scene& scene, const ProgramVolume& volume,
+                      std::span<const TransferTable> tables, GLuint firstTransferUnit);
+void setViewUniforms(const GlProgram& program, const Scene& scene, const Camera& camera);
+void setStepUniforms(const GlProgram& program, const Camera& camera, const VolumeGrid& grid,
+                     double stepVoxels);
+void setBrickUniforms(const GlProgram& program, const VolumeGrid& grid, const Brick& brick);
+/// To the units above.
+void bindTextures(const Brick& brick);
+
+}  // namespace burin::node

@@ -1,0 +1,33 @@
+#include "burin/node/technique.hpp"
+
+#include "burin/common/error.hpp"
+
+namespace burin::node {
+
+const char* name(Technique technique) {
+  return technique == Technique::kSlices ? "slices" : "raycast";
+}
+
+const char* name(Precision precision) {
+  if (precision == Precision::kHalf) return "half";
+  return precision == Precision::kByte ? "byte" : "float";
+}
+
+void checkTechnique(const Scene& scene, Technique technique, Precision precision) {
+  if (technique == Technique::kRaycast) {
+    if (scene.quality.combine == Combine::kOver)
+      fail(ExitCode::kUsage,
+           "quality.combine: \"over\" is drawn by slices only (--technique slices)");
+    if (precision != Precision::kFloat)
+      fail(ExitCode::kUsage,
+           "precision {} is one of slices' framebuffer (--technique slices), rays add up in float",
+           name(precision));
+  } else if (scene.quality.maxError && precision != Precision::kFloat) {
+    fail(ExitCode::kUsage,
+         "quality.max_error bounds what steps are wrong by, not a framebuffer of precision {}: "
+         "expected float, or quality.step_voxels",
+         name(precision));
+  }
+}
+
+}  // namespace burin::node

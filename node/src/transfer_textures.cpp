@@ -1,0 +1,73 @@
+#include "transfer_textures.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace burin::node {
+namespace {
+
+void setLookUp(const Texture& texture, GLint filter) {
+  gl().TextureParameteri(texture.id(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  gl().TextureParameteri(texture.id(), GL_TEXTURE_MIN_FILTER, filter);
+  gl().TextureParameteri(texture.id(), GL_TEXTURE_MAG_FILTER, filter);
+  checkGl("uploading a transfer function");
+}
+
+/// Rows of equal length as the layers of an array texture.
+Texture uploadRows(std::span<const std::span<const glm::vec4>> rows) {
+  Texture texture = makeTexture(GL_TEXTURE_1D_ARRAY);
+  const auto width = static_cast<GLsizei>(rows.front().size());
+  gl().TextureStorage2D(texture.id(), 1, GL_RGBA32F, width, static_cast<GLsizei>(rows.size()));
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    gl().TextureSubImage2D(texture.id(), 0, 0, static_cast<GLint>(i), width, 1, GL_RGBA, GL_FLOAT,
+                           rows[i].data());
+  setLookUp(texture, GL_LINEAR);
+  return texture;
+}
+
+Texture uploadEntries(std::span<const glm::vec4> entries) {
+  Texture texture = makeTexture(GL_TEXTURE_1D);
+  const auto width = static_cast<GLsizei>(entries.size());
+  gl().TextureStorage1D(texture.id(), 1, GL_RGBA32F, width);
+  gl().TextureSubImage1D(texture.id(), 0, 0, width, GL_RGBA, GL_FLOAT, entries.data());
+  setLookUp(texture, GL_NEAREST);
+  return texture;
+}
+
+std::array<Texture, kUnitsPerLayer> upload(const TransferTable& table, bool preintegrated) {
+  const TransferRows rows = transferRows(table);
+  const std::array<std::span<const glm::vec4>, 2> all{rows.table, rows.colour};
+  return {uploadRows(std::span{all}.first(preintegrated ? 2 : 1)),
+          preintegrated ? uploadEntries(rows.extinction) : Texture{}};
+}
+
+}  // namespace
+
+void TransferTextures::set(const Scene& scene, const ValueScale& scale) {
+  const bool preintegrated = scene.quality.preintegrated;
+  if (preintegrated_ == preintegrated &&
+      std::ranges::equal(functions_, scene.layers, {}, {}, &Layer::transferFunction))
+    return;
+  std::vector<TransferFunction> functions;
+  std::vector<TransferTable> tables;
+  std::vector<Texture> textures;
+  for (const Layer& layer : scene.layers) {
+    const TransferFunction& function = layer.transferFunction;
+    functions.push_back(function);
+    tables.push_back(makeTransferTable(function, function.opacityUnitLength.value(), scale.lowest,
+                                       scale.highest));
+    for (Texture& texture : upload(tables.back(), preintegrated))
+      textures.push_back(std::move(texture));
+  }
+  functions_ = std::move(functions);
+  preintegrated_ = preintegrated;
+  tables_ = std::move(tables);
+  textures_ = std::move(textures);
+}
+
+void TransferTextures::bind(GLuint firstUnit) const {
+  for (std::size_t i = 0; i < textures_.size(); ++i)
+    gl().BindTextureUnit(firstUnit + static_cast<GLuint>(i), textures_[i].id());
+}
+
+}  // namespace burin::node
