@@ -1,6 +1,7 @@
 #include <cstdio>
 
 #include "bench/accuracy_measurement.hpp"
+#include "bench/accuracy_scenes.hpp"
 #include "bench/accuracy_table.hpp"
 #include "bench/gnuplot.hpp"
 #include "bench/output_folder.hpp"
@@ -28,14 +29,14 @@ void write(const BenchAccuracyOptions& options, std::span<const AccuracyMeasurem
 
 int runBenchAccuracy(const Communicator& comm, const BenchAccuracyOptions& options) {
   onRoot(comm, [&] { createOutputFolder(options.folder, "accuracy.csv"); });
-  RenderOptions what;
-  what.input = options.input;
-  what.volume = options.volume;
   AccuracyPlan plan;
   plan.repeats = options.repeats;
-  if (options.quick) plan.referenceStep = 1.0 / 16;
+  if (options.quick) {
+    plan.referenceStep = 1.0 / 16;
+    plan.sliceSteps = {1};
+  }
   std::vector<AccuracyMeasurement> rows;
-  for (NamedScene& scene : benchScenes(comm, what)) {
+  for (NamedScene& scene : accuracyScenes(comm, options)) {
     scene.prepared.scene.imageSize = {options.side, options.side};
     const auto measured = measureAccuracy(comm, scene, plan);
     rows.insert(rows.end(), measured.begin(), measured.end());

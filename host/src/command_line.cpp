@@ -24,6 +24,8 @@ struct RenderText {
   RawText raw;
   std::string size;
   std::string skip = "on";
+  std::string technique = "raycast";
+  std::string precision = "float";
   std::string schedule = "auto";
   std::string wire = "float";
   std::string link = "auto";
@@ -95,8 +97,18 @@ void addRunOptions(CLI::App& app, RenderOptions& options, RenderText& text) {
   app.add_flag("--redraw", options.redraw,
                "Draw each frame anew though nothing changed since the one before, to time it")
       ->needs("--frames");
-  app.add_flag("--reference", options.reference,
-               "Draw with the slow double-precision reference; it has no bricks and skips nothing");
+  CLI::Option* const reference = app.add_flag(
+      "--reference", options.reference,
+      "Draw with the slow double-precision reference; it has no bricks and skips nothing");
+  app.add_option("--technique", text.technique,
+                 "Fused rays, or slices: a draw for each sample plane, layer and pass (raycast)")
+      ->type_name("raycast|slices")
+      ->check(CLI::IsMember({"raycast", "slices"}))
+      ->excludes(reference);
+  app.add_option("--precision", text.precision,
+                 "Of the framebuffer that slices are blended in: 32, 16 or 8 bits (float)")
+      ->type_name("float|half|byte")
+      ->check(CLI::IsMember({"float", "half", "byte"}));
   app.add_flag("--quiet", options.quiet, "Say nothing but warnings and errors");
 }
 
@@ -138,6 +150,14 @@ MergeOptions mergeOptions(const RenderText& text) {
   return merge;
 }
 
+void setTechnique(node::WorkerOptions& options, const RenderText& text) {
+  if (text.technique == "slices") options.technique = node::Technique::kSlices;
+  if (text.precision == "half") options.precision = node::Precision::kHalf;
+  if (text.precision == "byte") options.precision = node::Precision::kByte;
+  if (text.technique != "slices" && text.precision != "float")
+    fail(ExitCode::kUsage, "--precision {} goes with --technique slices", text.precision);
+}
+
 /// "head.nii.gz" → "head.png".
 std::filesystem::path defaultOutput(const std::filesystem::path& input) {
   std::filesystem::path name = input.filename();
@@ -171,6 +191,7 @@ RenderOptions finished(RenderOptions options, const RenderText& text, int ranks)
   if (!text.size.empty()) options.size = parseSize(text.size);
   options.raw = rawLayout(text.raw);
   options.worker.skip = text.skip == "on";
+  setTechnique(options.worker, text);
   options.merge = mergeOptions(text);
   return options;
 }

@@ -26,6 +26,11 @@ histogram; --save-scene writes that scene down, to be edited.
   --set camera.view=anterior               --set image.background=transparent
 `burin styles` lists every style with its parameters; configs/schema.json has every key.
 
+--technique slices draws the same samples as Lum and Ma's hardware did, a plane, layer and pass at a
+time. In float it is the same picture; --precision half and byte, and quality.combine "over" (each
+draw over the one before), show what such hardware cost. Rays cannot end early: quality.termination
+has no effect.
+
 PNG is display-referred over the background; EXR is the float frame, premultiplied linear RGBA
 without background. Both carry the scene, the program's version and the step.
 
@@ -50,12 +55,10 @@ Start it with as many ranks as are to be measured: mpirun --bind-to none -n 8 bu
 }
 
 std::string benchAccuracyFooter() {
-  return "Draws the built-in scenes (or INPUT) at fixed steps and for max_error settings, with "
-         "and\n"
-         "without pre-integration, in turns, and compares with the double-precision reference, "
-         "whose\n"
-         "own change on halving its step is shown. Writes accuracy.csv and accuracy.png (gnuplot:\n"
-         "error against time and samples, the Pareto front marked) to the folder.";
+  return R"(Draws the built-in scenes (or INPUT) at fixed steps and for max_error settings, with and without
+pre-integration, and as slices in float, half and byte framebuffers, in turns, and compares with the
+double-precision reference, whose own change on halving its step is shown. Writes accuracy.csv and
+accuracy.png (gnuplot: error against time and samples, the Pareto front marked) to the folder.)";
 }
 
 std::string benchSkipFooter() {

@@ -28,11 +28,7 @@ Session::Session(const Communicator& comm, const RenderOptions& options)
   progress_.show("reading the volume");
   prepared_ = prepareScene(comm_, options_);
   onRoot(comm_, [&] { checkConflicts(options_, prepared_.scene.volume.file); });
-  together(comm_, "the scene", [&] {
-    if (options_.reference && prepared_.scene.quality.maxError)
-      fail(ExitCode::kUsage,
-           "--reference draws at a fixed step: expected quality.step_voxels, not max_error");
-  });
+  together(comm_, "the scene", [&] { checkTechnique(); });
   checkCameras();
   if (!options_.saveScene.empty()) {
     onRoot(comm_, [&] {
@@ -45,6 +41,18 @@ Session::Session(const Communicator& comm, const RenderOptions& options)
   if (comm_.isRoot()) display_.emplace(prepared_.scene, options_);
   statistics_.ranks = comm_.size();
   statistics_.samplesCounted = options_.worker.countSamples && !options_.reference;
+}
+
+void Session::checkTechnique() const {
+  const Quality& quality = prepared_.scene.quality;
+  if (!options_.reference)
+    return node::checkTechnique(prepared_.scene, options_.worker.technique,
+                                options_.worker.precision);
+  if (quality.maxError)
+    fail(ExitCode::kUsage,
+         "--reference draws at a fixed step: expected quality.step_voxels, not max_error");
+  if (quality.combine != Combine::kSum)
+    fail(ExitCode::kUsage, "--reference adds layers up: expected quality.combine \"sum\"");
 }
 
 double Session::orbitDeg(int index) const {

@@ -171,19 +171,30 @@ TEST(BenchAccuracy, WritesATableWhoseErrorsFallWithTheStep) {
       runBurin({"bench", "accuracy", scene, "--quick", "--size", "16", "--out", folder / "out"}, 1);
   ASSERT_EQ(run.exitCode, 0) << run.err;
   const auto lines = readCsv(folder / "out/accuracy.csv");
-  ASSERT_EQ(lines.size(), 18);
+  ASSERT_EQ(lines.size(), 21);
+  std::map<std::string, double> slices;  // error at step 1 by precision
+  double rays = 0;
   double coarsest = 0;
   double finest = 0;
   for (const Line& line : lines) {
     EXPECT_EQ(line.at("scene"), "ramp");
     EXPECT_GT(std::stod(line.at("samples_visited")), 0);
     const double error = std::stod(line.at("error_max"));
+    if (line.at("technique") == "slices") {
+      slices[line.at("precision")] = error;
+      continue;
+    }
+    EXPECT_EQ(line.at("precision"), "float");
+    if (line.at("step_voxels") == "1" && line.at("preintegrated") == "1") rays = error;
     if (line.at("step_voxels") == "4") coarsest = std::max(coarsest, error);
     if (line.at("step_voxels") == "0.125") finest = std::max(finest, error);
     if (line.at("max_error_asked") != "0") {
       EXPECT_LE(error, std::stod(line.at("max_error_asked")));
     }
   }
+  ASSERT_EQ(slices.size(), 3);
+  EXPECT_NEAR(slices["float"], rays, 1.1e-4);  // the same samples, but rays end at 1e-4
+  EXPECT_LT(slices["float"], slices["byte"]);
   EXPECT_GT(coarsest, 20 * finest);  // second order would be a factor of 1000
   EXPECT_GT(finest, 0);
 }

@@ -45,6 +45,27 @@ TEST(CommandLine, RenderHasTheDocumentedDefaults) {
   EXPECT_FALSE(options.reference);
 }
 
+TEST(CommandLine, Techniques) {
+  const RenderOptions rays = parseRender({"s.json"});
+  EXPECT_EQ(rays.worker.technique, node::Technique::kRaycast);
+  EXPECT_EQ(rays.worker.precision, node::Precision::kFloat);
+  const RenderOptions slices = parseRender({"s.json", "--technique", "slices"});
+  EXPECT_EQ(slices.worker.technique, node::Technique::kSlices);
+  EXPECT_EQ(slices.worker.precision, node::Precision::kFloat);
+  for (const auto precision :
+       {node::Precision::kFloat, node::Precision::kHalf, node::Precision::kByte})
+    EXPECT_EQ(parseRender({"s.json", "--technique", "slices", "--precision", name(precision)})
+                  .worker.precision,
+              precision);
+  EXPECT_THAT(usageError({"render", "s.json", "--technique", "slice"}), HasSubstr("--technique"));
+  EXPECT_THAT(usageError({"render", "s.json", "--technique", "slices", "--precision", "double"}),
+              HasSubstr("--precision"));
+  EXPECT_EQ(usageError({"render", "s.json", "--precision", "byte"}),
+            "--precision byte goes with --technique slices");
+  EXPECT_THAT(usageError({"render", "s.json", "--technique", "slices", "--reference"}),
+              HasSubstr("--reference"));
+}
+
 TEST(CommandLine, RenderTakesEveryOption) {
   const RenderOptions options = parseRender({"s.json",
                                              "-o",

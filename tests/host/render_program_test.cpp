@@ -122,6 +122,18 @@ TEST_F(Render, AVolumeWithoutASceneTakesAStepOrAnError) {
   EXPECT_EQ(asked.spec.get_string_attribute("burin:step_voxels"), "");  // every tile has its own
 }
 
+TEST_F(Render, SlicesDrawTheSamePictureOnAnyRanks) {
+  draw(path("rays.exr"));
+  const ReadPicture rays = readPicture(path("rays.exr"));
+  EXPECT_GT(coverage(rays), 0.1);
+  for (const int ranks : {0, 3}) {
+    draw(path("slices.exr"), {"--technique", "slices"}, ranks);
+    EXPECT_LE(largestDifference(readPicture(path("slices.exr")), rays), 1e-4) << ranks;
+  }
+  draw(path("bytes.exr"), {"--technique", "slices", "--precision", "byte"});
+  EXPECT_GT(largestDifference(readPicture(path("bytes.exr")), rays), 1e-3);
+}
+
 TEST_F(Render, PngIsTheFrameOverTheBackground) {
   draw(path("a.exr"));
   draw(path("a.png"));

@@ -52,6 +52,20 @@ TEST_P(Failures, BadOverride) {
       "qualty");
 }
 
+TEST_P(Failures, TechniqueThatCannotDrawTheScene) {
+  const std::string scene = folder_.write(
+      "s.json",
+      R"({"schema_version": 1, "volume": {"procedural": "ramp", "dims": [4, 4, 4]}, "layers": [)"
+      R"({"transfer_function": {"points": [{"value": 1, "color": "#fff", "opacity": 0.1}]}}]})");
+  const std::string picture = folder_ / "a.png";
+  const std::string over = "quality.combine=over";
+  expectFailure({"render", scene, "-o", picture, "--set", over}, 2, "slices only");
+  expectFailure({"render", scene, "-o", picture, "--set", over, "--reference"}, 2, "combine");
+  expectFailure({"render", scene, "-o", picture, "--set", "quality.max_error=0.1", "--technique",
+                 "slices", "--precision", "byte"},
+                2, "quality.max_error");
+}
+
 TEST_P(Failures, MissingVolume) {
   expectFailure({"render", folder_ / "none.nrrd", "-o", folder_ / "a.png"}, 3, "none.nrrd");
 }

@@ -11,8 +11,15 @@ namespace burin::host::bench {
 
 namespace {
 
-/// The plan's ways of drawing, not yet measured.
-std::vector<AccuracyMeasurement> waysOf(const std::string& scene, const AccuracyPlan& plan) {
+/// Whether "over" differs from "sum": if anything meets at a sample.
+bool hasSeveralPasses(const Scene& scene) {
+  const auto drawsLines = [](const StyleSettings& style) {
+    return findStyle(style.name)->drawsLines;
+  };
+  return scene.layers.size() > 1 || std::ranges::any_of(scene.layers.front().styles, drawsLines);
+}
+
+std::vector<AccuracyMeasurement> raysOf(const std::string& scene, const AccuracyPlan& plan) {
   std::vector<AccuracyMeasurement> ways;
   const auto add = [&](bool preintegrated, std::optional<double> step,
                        std::optional<double> maxError) {
@@ -29,12 +36,40 @@ std::vector<AccuracyMeasurement> waysOf(const std::string& scene, const Accuracy
   return ways;
 }
 
+std::vector<AccuracyMeasurement> slicesOf(const std::string& scene, bool severalPasses,
+                                          const AccuracyPlan& plan) {
+  std::vector<AccuracyMeasurement> ways;
+  for (const Combine combine : {Combine::kSum, Combine::kOver}) {
+    if (combine == Combine::kOver && !severalPasses) continue;
+    for (const auto precision :
+         {node::Precision::kFloat, node::Precision::kHalf, node::Precision::kByte})
+      for (const double step : plan.sliceSteps) {
+        AccuracyMeasurement& way = ways.emplace_back();
+        way.scene = scene;
+        way.technique = node::Technique::kSlices;
+        way.precision = precision;
+        way.combine = combine;
+        way.stepVoxels = step;
+      }
+  }
+  return ways;
+}
+
+/// The plan's ways of drawing, not yet measured.
+std::vector<AccuracyMeasurement> waysOf(const NamedScene& scene, const AccuracyPlan& plan) {
+  std::vector<AccuracyMeasurement> ways = raysOf(scene.name, plan);
+  const auto slices = slicesOf(scene.name, hasSeveralPasses(scene.prepared.scene), plan);
+  ways.insert(ways.end(), slices.begin(), slices.end());
+  return ways;
+}
+
 Quality qualityOf(const AccuracyMeasurement& way) {
   Quality quality;
   quality.preintegrated = way.preintegrated;
   quality.maxError = way.maxErrorAsked;
   // Steps are compared by themselves: rays end only where nothing could be seen any more.
   if (way.stepVoxels) quality = {*way.stepVoxels, 1e-4, way.preintegrated, {}};
+  quality.combine = way.combine;
   return quality;
 }
 
@@ -57,7 +92,9 @@ Image<Rgba> truthOf(const Communicator& comm, PreparedScene& prepared, double st
 std::unique_ptr<FrameMaker> makerOf(const Communicator& comm, PreparedScene& prepared,
                                     const AccuracyMeasurement& way, bool countSamples) {
   prepared.scene.quality = qualityOf(way);
-  return makeRaycastFrames(comm, prepared, {.countSamples = countSamples}, {});
+  return makeRaycastFrames(
+      comm, prepared,
+      {.countSamples = countSamples, .technique = way.technique, .precision = way.precision}, {});
 }
 
 }  // namespace
@@ -67,7 +104,7 @@ std::vector<AccuracyMeasurement> measureAccuracy(const Communicator& comm, Named
   const Camera camera = resolveCamera(scene.prepared.scene, scene.prepared.facts);
   const Image<Rgba> coarse = truthOf(comm, scene.prepared, 2 * plan.referenceStep, camera);
   const Image<Rgba> truth = truthOf(comm, scene.prepared, plan.referenceStep, camera);
-  std::vector<AccuracyMeasurement> rows = waysOf(scene.name, plan);
+  std::vector<AccuracyMeasurement> rows = waysOf(scene, plan);
   std::vector<std::unique_ptr<FrameMaker>> makers;
   for (const AccuracyMeasurement& way : rows)
     makers.push_back(makerOf(comm, scene.prepared, way, false));

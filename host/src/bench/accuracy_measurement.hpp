@@ -7,12 +7,16 @@
 #include "bench/compositing_input.hpp"
 #include "bench/picture_error.hpp"
 #include "burin/host/scene_setup.hpp"
+#include "burin/node/technique.hpp"
 
 namespace burin::host::bench {
 
 /// One way of drawing a scene, what it costs and how far it is off.
 struct AccuracyMeasurement {
   std::string scene;
+  node::Technique technique = node::Technique::kRaycast;
+  node::Precision precision = node::Precision::kFloat;
+  Combine combine = Combine::kSum;
   bool preintegrated = true;
   std::optional<double> stepVoxels;  ///< unset: chosen for maxErrorAsked
   std::optional<double> maxErrorAsked;
@@ -25,6 +29,7 @@ struct AccuracyMeasurement {
 struct AccuracyPlan {
   std::vector<double> steps{4, 2, 1, 0.5, 0.25, 0.125};
   std::vector<double> maxErrors{1.0 / 32, 1.0 / 128, 1.0 / 512};
+  std::vector<double> sliceSteps{2, 1, 0.5, 0.25};  ///< of slices, in every precision
   double referenceStep = 1.0 / 32;
   int repeats = 5;
 };

@@ -21,7 +21,18 @@ std::vector<std::string> scenesOf(std::span<const Row> rows) {
   return scenes;
 }
 
+bool isSliced(const Row& row) {
+  return row.technique == node::Technique::kSlices;
+}
+
+const char* combineOf(const Row& row) {
+  return row.combine == Combine::kOver ? "over" : "sum";
+}
+
 std::string wayOf(const Row& row) {
+  if (isSliced(row))
+    return fmt::format("slices, {}, {}, step {:g}", name(row.precision), combineOf(row),
+                       *row.stepVoxels);
   const std::string how = row.preintegrated ? "pre-integrated" : "midpoint";
   if (row.maxErrorAsked) return fmt::format("{}, max_error 1/{:.0f}", how, 1 / *row.maxErrorAsked);
   return fmt::format("{}, step {:g}", how, *row.stepVoxels);
@@ -31,8 +42,8 @@ std::string wayOf(const Row& row) {
 std::int64_t cheapestFixed(const Row& row, std::span<const Row> rows) {
   std::int64_t fewest = 0;
   for (const Row& other : rows) {
-    if (other.scene != row.scene || !other.stepVoxels || other.preintegrated != row.preintegrated ||
-        other.error.largest > row.error.largest)
+    if (other.scene != row.scene || isSliced(other) || !other.stepVoxels ||
+        other.preintegrated != row.preintegrated || other.error.largest > row.error.largest)
       continue;
     if (fewest == 0 || other.samplesVisited < fewest) fewest = other.samplesVisited;
   }
@@ -46,12 +57,14 @@ std::string curve(std::string_view filter, std::string_view x, std::string_view 
                      filter, x, with, title);
 }
 
-std::string diagram(std::string_view scene, std::string_view x, std::string_view label) {
+std::string diagram(std::string_view scene, bool severalPasses, std::string_view x,
+                    std::string_view label) {
   const std::string here = fmt::format("strcol('scene') eq '{}'", scene);
   std::vector<std::string> curves;
   for (const bool preintegrated : {true, false}) {
     const std::string kind =
-        fmt::format("{} && column('preintegrated') == {}", here, preintegrated ? 1 : 0);
+        fmt::format("{} && strcol('technique') eq 'raycast' && column('preintegrated') == {}", here,
+                    preintegrated ? 1 : 0);
     const std::string name = preintegrated ? "pre-integrated" : "midpoint";
     const int colour = preintegrated ? 1 : 2;
     curves.push_back(curve(kind + " && column('max_error_asked') == 0", x,
@@ -59,6 +72,20 @@ std::string diagram(std::string_view scene, std::string_view x, std::string_view
     curves.push_back(curve(kind + " && column('max_error_asked') > 0", x,
                            fmt::format("points lc {} pt 7", colour), name + ", max\\_error"));
   }
+  const auto slices = [&](std::string_view precision, std::string_view combine, int colour) {
+    curves.push_back(
+        curve(fmt::format("{} && strcol('technique') eq 'slices' && strcol('precision') eq '{}' && "
+                          "strcol('combine') eq '{}'",
+                          here, precision, combine),
+              x, fmt::format("linespoints lc {} pt 8 dt 2", colour),
+              combine == "over" ? fmt::format("slices, {}, over", precision)
+                                : fmt::format("slices, {}", precision)));
+  };
+  slices("float", "sum", 3);
+  slices("half", "sum", 4);
+  slices("byte", "sum", 5);
+  if (severalPasses) slices("float", "over", 6);
+  if (severalPasses) slices("byte", "over", 7);
   curves.push_back(curve(here + " && column('pareto') == 1", x, "points pt 6 ps 2.2 lc 8",
                          "Pareto front (time)"));
   return fmt::format("set title '{}'\nset xlabel '{}'\nplot {}\n", scene, label,
@@ -77,14 +104,15 @@ bool isOnFront(const Row& row, std::span<const Row> rows) {
 std::string accuracyCsv(std::span<const Row> rows) {
   std::string text =
       "volume,scene,technique,precision,preintegrated,step_voxels,max_error_asked,median_ms,"
-      "samples_visited,error_max,error_rms,error_delta_e,reference_change,pareto\n";
+      "samples_visited,error_max,error_rms,error_delta_e,reference_change,pareto,combine\n";
   for (const Row& row : rows)
     text += fmt::format(
-        "{0},{0},raycast,float,{1},{2},{3},{4:.4g},{5},{6:.4g},{7:.4g},{8:.4g},"
-        "{9:.3g},{10}\n",
+        "{0},{0},{11},{12},{1},{2},{3},{4:.4g},{5},{6:.4g},{7:.4g},{8:.4g},"
+        "{9:.3g},{10},{13}\n",
         row.scene, row.preintegrated ? 1 : 0, orZero(row.stepVoxels), orZero(row.maxErrorAsked),
         row.medianMs, row.samplesVisited, row.error.largest, row.error.rms, row.error.deltaE,
-        row.referenceChange, isOnFront(row, rows) ? 1 : 0);
+        row.referenceChange, isOnFront(row, rows) ? 1 : 0, name(row.technique), name(row.precision),
+        combineOf(row));
   return text;
 }
 
@@ -123,8 +151,14 @@ std::string accuracyPlots(std::span<const Row> rows) {
       "set output 'accuracy.png'\nset logscale xy\nset ylabel 'largest error'\nset format y "
       "'%.0e'\nset multiplot layout 2,{}\n",
       620 * scenes.size(), scenes.size());
-  for (const std::string& scene : scenes) text += diagram(scene, "median_ms", "median ms");
-  for (const std::string& scene : scenes) text += diagram(scene, "samples_visited", "samples");
+  const auto severalPasses = [&](const std::string& scene) {
+    return std::ranges::any_of(
+        rows, [&](const Row& row) { return row.scene == scene && row.combine == Combine::kOver; });
+  };
+  for (const std::string& scene : scenes)
+    text += diagram(scene, severalPasses(scene), "median_ms", "median ms");
+  for (const std::string& scene : scenes)
+    text += diagram(scene, severalPasses(scene), "samples_visited", "samples");
   return text + "unset multiplot\n";
 }
 

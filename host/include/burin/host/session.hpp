@@ -27,6 +27,7 @@ class Session {
 
  private:
   double orbitDeg(int index) const;
+  void checkTechnique() const;
   void checkCameras() const;
   std::unique_ptr<FrameMaker> makeFrameMaker();
   /// The signal that some rank got, in which case the frame was dropped, or 0.
