@@ -10,10 +10,12 @@
 
 namespace burin::node {
 
-/// Texture units of one layer: its table's rows; the extinction's, of which nearest texels are read.
+/// Texture units of one layer: its table's rows; the extinction's, of which nearest texels are
+/// read.
 inline constexpr GLuint kUnitsPerLayer = 2;
 
-/// A scene's transfer functions as tables and as the textures that programs look them up in. Its OffscreenContext must be current.
+/// A scene's transfer functions as tables and as the textures that programs look them up in. Its
+/// OffscreenContext must be current.
 class TransferTextures {
  public:
   /// Follows the scene; does nothing if its transfer functions stand. If it throws, the ones before

@@ -52,8 +52,7 @@ double unevenness(const BrickTree& tree, const CostEstimate& cost) {
 }
 
 std::unique_ptr<BrickRenderer> makeRenderer(const Scene& scene, const ProgramVolume& volume,
-                                            const WorkerOptions& options,
-                                            bool severalBricks) {
+                                            const WorkerOptions& options, bool severalBricks) {
   const DrawOptions how{options.skip, options.countSamples, severalBricks};
   if (options.technique == Technique::kSlices)
     return std::make_unique<Slicer>(scene, volume, how, options.precision);
@@ -204,9 +203,9 @@ void Worker::State::load() {
     if (renderer)
       renderer->setScene(scene);
     else
-      renderer = makeRenderer(
-          scene, {volume.grid, scale, {survey.gradient999, survey.largestGradient}}, options,
-          mine.size() > 1);
+      renderer =
+          makeRenderer(scene, {volume.grid, scale, {survey.gradient999, survey.largestGradient}},
+                       options, mine.size() > 1);
     for (const BrickId id : mine) {
       if (part(id).empty()) continue;
       bricks.emplace_back(id, part(id), ghosts, volume, scale);

@@ -44,6 +44,7 @@ void edit(Scene& scene, std::mt19937& random) {
   }
 }
 
+// One whole brick, so that a new worker has the same bricks: they go by the scene otherwise.
 TEST(SceneUpdate, AfterAnyEditsThePictureIsThatOfANewWorker) {
   std::mt19937 random{5};
   ArraySource source = smoothVolume(gridOf({30, 37, 26}, {1, 1.2, 0.9}));
@@ -56,9 +57,10 @@ TEST(SceneUpdate, AfterAnyEditsThePictureIsThatOfANewWorker) {
   // Ghost layers that a scene before needed stay, and textures of another size round otherwise by
   // 3e-6: with slices both workers load as many from the start.
   const node::WorkerOptions slices{
-      .bricks = 3, .skip = false, .technique = node::Technique::kSlices, .ghostLayers = 2};
+      .skip = false, .technique = node::Technique::kSlices, .wholeBricks = true, .ghostLayers = 2};
   for (const auto& [options, edits] :
-       {Run{{.bricks = 3}, 25}, Run{{.bricks = 3, .skip = false}, 25}, Run{slices, 8}}) {
+       {Run{{.wholeBricks = true}, 25}, Run{{.skip = false, .wholeBricks = true}, 25},
+        Run{slices, 8}}) {
     node::WorkerOptions skipping = options;
     skipping.skip = true;
     node::Worker worker{self, scene, source, options};
@@ -77,8 +79,34 @@ TEST(SceneUpdate, AfterAnyEditsThePictureIsThatOfANewWorker) {
   }
 }
 
-// Loading bricks again drops the ones before, which takes their context, and another worker had one
-// since.
+// Bricks that were split and loaded for other scenes: on and off have the same; a new worker has
+// others, so it agrees within the bounds of brick_invariance_test.cpp.
+TEST(SceneUpdate, AfterAnyEditsSkippingChangesNothing) {
+  std::mt19937 random{6};
+  ArraySource source = smoothVolume(gridOf({30, 37, 26}, {1, 1.2, 0.9}));
+  Scene scene = resolved(sceneWithStyle("light"), source);
+  const Communicator self{MPI_COMM_SELF};
+  node::Worker on{self, scene, source, {.bricks = 3, .skip = true}};
+  node::Worker off{self, scene, source, {.bricks = 3, .skip = false}};
+  for (int i = 0; i < 25; ++i) {
+    edit(scene, random);
+    scene = resolved(scene, source);
+    on.update(scene);
+    off.update(scene);
+    const Camera camera = resolveCamera(scene, {source.info().grid, false});
+    RankStatistics statistics;
+    const Image<Rgba> skipped = wholeFrame(on.draw(camera, statistics));
+    const Image<Rgba> visited = wholeFrame(off.draw(camera, statistics));
+    EXPECT_TRUE(std::ranges::equal(skipped.pixels(), visited.pixels())) << "edit " << i;
+    const Difference d =
+        difference(skipped, drawAlone(scene, source, camera, {.bricks = 3, .skip = true}));
+    EXPECT_LE(d.largest, 5e-5) << "edit " << i;
+    EXPECT_LE(d.rms, 2e-6) << "edit " << i;
+  }
+}
+
+// Loading bricks again drops the ones before, which takes their context, and another worker had
+// one since.
 TEST(SceneUpdate, BricksAreLoadedAgainAfterAnotherWorkerIsGone) {
   ArraySource source = smoothVolume(gridOf({30, 37, 26}));
   Scene scene = sceneWithStyle("plain");
