@@ -71,8 +71,8 @@ int segmentGhostLayers(const Scene& scene) {
     slope *= std::tan(glm::radians(camera.verticalFovDeg) / 2);
   }
   constexpr double kMost = 4096;  // more than any texture holds; loading stops at the volume
-  const double step = scene.quality.maxError ? kLargestChosenStep : scene.quality.stepVoxels;
-  return static_cast<int>(std::min(std::ceil(0.5 * step * std::hypot(1.0, slope)), kMost));
+  return static_cast<int>(
+      std::min(std::ceil(0.5 * scene.quality.stepVoxels * std::hypot(1.0, slope)), kMost));
 }
 
 }  // namespace
@@ -124,7 +124,7 @@ glm::dvec3 lightDirectionWorld(const Light& light, const Camera& camera) {
 }
 
 int ghostLayersNeeded(const Scene& scene) {
-  int needed = segmentGhostLayers(scene);
+  int needed = 0;
   for (const Layer& layer : scene.layers) {
     const bool gradient = needsGradient(layer);
     for (const StyleSettings& settings : layer.styles) {
@@ -134,7 +134,9 @@ int ghostLayersNeeded(const Scene& scene) {
       if (spec->hasSnippet || gradient) needed = std::max(needed, spec->ghostLayers);
     }
   }
-  return needed;
+  // Styles look around a segment's middle, or around those of its parts where these are halved.
+  const int ofSegments = segmentGhostLayers(scene);
+  return scene.quality.maxError ? needed + ofSegments : std::max(needed, ofSegments);
 }
 
 bool gradientNeeded(const Scene& scene) {

@@ -300,6 +300,26 @@ CLI::Option* describeBenchAccuracy(CLI::App& app, BenchAccuracyOptions& options)
       ->check(CLI::Range(1, kLargestImageSide));
 }
 
+/// Returns --size.
+CLI::Option* describeBenchMaxError(CLI::App& app, BenchMaxErrorOptions& options) {
+  app.add_option("VOLUME", options.volumes, "Volumes (the procedural kinds)")->type_name("FILE");
+  app.add_option("--out", options.folder, "Where the table goes (bench)")->type_name("DIR");
+  app.add_flag("--quick", options.quick, "Frames of 64x64 pixels, one view");
+  app.add_option("--smallest-step", options.smallestStep,
+                 "Smallest fixed step to compare with, voxels (1/64)")
+      ->type_name("X")
+      ->check(CLI::Range(kSmallestStepVoxels, kLargestChosenStep));
+  app.footer(benchMaxErrorFooter());
+  return app.add_option("--size", options.side, "Side of the square frames (128)")
+      ->type_name("N")
+      ->check(CLI::Range(1, kLargestImageSide));
+}
+
+BenchMaxErrorOptions finished(BenchMaxErrorOptions options, const CLI::Option& size) {
+  if (options.quick && size.empty()) options.side = 64;
+  return options;
+}
+
 BenchAccuracyOptions finished(BenchAccuracyOptions options, const CLI::Option& size) {
   checkVolumeChoice(options.input, options.volume);
   if (options.quick && size.empty()) options.side = 96;
@@ -464,6 +484,10 @@ Command parseCommandLine(std::span<const char* const> arguments, int ranks) {
   BenchAccuracyOptions accuracy;
   CLI::App& accuracyApp = *benchApp.add_subcommand("accuracy", "Error against time and samples");
   const CLI::Option* const accuracySize = describeBenchAccuracy(accuracyApp, accuracy);
+  BenchMaxErrorOptions maxError;
+  CLI::App& maxErrorApp =
+      *benchApp.add_subcommand("max-error", "Whether quality.max_error is kept, and at what cost");
+  const CLI::Option* const maxErrorSize = describeBenchMaxError(maxErrorApp, maxError);
 
   BenchSkipOptions skip;
   CLI::App& skipApp = *benchApp.add_subcommand("skip", "Skipping empty space, on and off");
@@ -486,6 +510,7 @@ Command parseCommandLine(std::span<const char* const> arguments, int ranks) {
   if (compositingApp.parsed()) return finished(compositing, benchText, ranks);
   if (skipApp.parsed()) return finished(skip, *skipSize);
   if (accuracyApp.parsed()) return finished(accuracy, *accuracySize);
+  if (maxErrorApp.parsed()) return finished(maxError, *maxErrorSize);
   if (scalingApp.parsed()) return finished(scaling, *scalingSize);
   if (stylesApp.parsed()) return StylesOptions{};
   info.raw = rawLayout(infoText);

@@ -61,6 +61,15 @@ double-precision reference, whose own change on halving its step is shown. Write
 accuracy.png (gnuplot: error against time and samples, the Pareto front marked) to the folder.)";
 }
 
+std::string benchMaxErrorFooter() {
+  return R"(Asks for errors of 1/32, 1/128 and 1/512 in three views of each volume, with a smooth and a spiky
+transfer function, and compares every pixel with the double-precision reference, halved until it has
+converged. Then draws at fixed steps of 4, 2, 1 … voxels until one is as good, and compares the
+samples, those that were needed to choose the steps included. Writes max_error.csv to the folder.
+
+burin bench max-error *.nrrd      takes minutes per volume)";
+}
+
 std::string benchSkipFooter() {
   return R"(Draws one ball, 30 balls and vessels with empty-space skipping on and off, in turns with a volume
 in which everything is visible; or only INPUT, if it is given. Samples are counted in frames that

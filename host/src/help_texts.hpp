@@ -11,6 +11,7 @@ std::string makeVolumeFooter();
 std::string benchCompositingFooter();
 std::string benchSkipFooter();
 std::string benchAccuracyFooter();
+std::string benchMaxErrorFooter();
 std::string benchScalingFooter();
 
 }  // namespace burin::host

@@ -33,6 +33,9 @@ int runCommand(const Communicator& comm, const BenchCompositingOptions& options)
 int runCommand(const Communicator& comm, const BenchAccuracyOptions& options) {
   return runBenchAccuracy(comm, options);
 }
+int runCommand(const Communicator& comm, const BenchMaxErrorOptions& options) {
+  return runBenchMaxError(comm, options);
+}
 int runCommand(const Communicator& comm, const BenchSkipOptions& options) {
   return runBenchSkip(comm, options);
 }

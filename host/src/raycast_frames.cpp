@@ -16,19 +16,22 @@ class RaycastFrames : public FrameMaker {
                 const node::WorkerOptions& options, const MergeOptions& merge)
       : comm_{comm},
         maxError_{prepared.scene.quality.maxError},
+        isAdaptive_{prepared.scene.quality.preintegrated},
         compositor_{comm},
         worker_{comm, withTermination(prepared.scene), *prepared.source, options},
         merge_{merge} {}
 
   ImageView<const Rgba> make(const Camera& camera, RankStatistics& statistics) override {
-    if (!maxError_) return draw(camera, statistics, nullptr);
+    if (!maxError_ || isAdaptive_) return draw(camera, statistics, nullptr);
     node::StepMap steps;
     {
       const PhaseTimer timer{statistics.phases[Phase::kUpdate]};
-      steps = chooseSteps(comm_, camera, *maxError_ - termination(*maxError_),
+      steps = chooseSteps(comm_, camera, *maxError_ - terminationOf(*maxError_),
                           [&](const Camera& small, const node::StepMap& probe) {
-                            RankStatistics unused;
-                            return draw(small, unused, &probe);
+                            RankStatistics probing;
+                            const ImageView<const Rgba> frame = draw(small, probing, &probe);
+                            statistics.samplesVisited += probing.samplesVisited;
+                            return frame;
                           });
     }
     return draw(camera, statistics, &steps);
@@ -43,11 +46,10 @@ class RaycastFrames : public FrameMaker {
   }
 
  private:
-  /// Rays that end early may be wrong by their threshold, which the step then has less of.
-  static double termination(double maxError) { return maxError / 8; }
-
   static Scene withTermination(Scene scene) {
-    if (scene.quality.maxError) scene.quality.termination = termination(*scene.quality.maxError);
+    if (!scene.quality.maxError) return scene;
+    scene.quality.termination = terminationOf(*scene.quality.maxError);
+    scene.quality.stepVoxels = 1;  // what the march begins with
     return scene;
   }
 
@@ -76,6 +78,7 @@ class RaycastFrames : public FrameMaker {
 
   const Communicator& comm_;
   std::optional<double> maxError_;
+  bool isAdaptive_;
   compositor::Compositor compositor_;
   node::Worker worker_;
   MergeOptions merge_;

@@ -48,9 +48,6 @@ void Session::checkTechnique() const {
   if (!options_.reference)
     return node::checkTechnique(prepared_.scene, options_.worker.technique,
                                 options_.worker.precision);
-  if (quality.maxError)
-    fail(ExitCode::kUsage,
-         "--reference draws at a fixed step: expected quality.step_voxels, not max_error");
   if (quality.combine != Combine::kSum)
     fail(ExitCode::kUsage, "--reference adds layers up: expected quality.combine \"sum\"");
 }

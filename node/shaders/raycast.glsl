@@ -21,6 +21,9 @@ float sufficientOpacity() {
 #endif
 }
 
+#ifdef ADAPTIVE
+#include "adaptive.glsl"
+#else
 void main() {
   result = vec4(0.0);
   float sufficient = sufficientOpacity();
@@ -111,3 +114,4 @@ void main() {
   atomicAdd(counters.leaps, leaps);
 #endif
 }
+#endif

@@ -171,6 +171,10 @@ class LayerCode {
                          transferUniform(i), extinctionUniform(i));
     classify_ += fmt::format(
         "  extinction{0} = meanExtinction(scale{0}, front.layers[{0}], back.layers[{0}]);\n", i);
+    beyond_ += fmt::format(
+        "{1}abs(meanExtinction(scale{0}, edge.layers[{0}], beyond.layers[{0}]) - "
+        "edge.layers[{0}].extinction)",
+        i, i == 0 ? "" : " + ");
   }
 
   std::string colourOf(std::size_t i) const {
@@ -233,8 +237,10 @@ class LayerCode {
     return text;
   }
 
-  /// classify(): whether a segment shows anything in any layer; shade(): its colour and extinction
-  /// after the styles, for a segment that was classified last.
+  /// changeBeyond(): how much the extinction's mean over the values between two differs from that
+  /// at the first, over all layers; for the adaptive march alone. classify(): whether a segment
+  /// shows anything in any layer; shade(): its colour and extinction after the styles, for a
+  /// segment that was classified last.
   std::string functions() const {
     const bool preintegrated = scene_.quality.preintegrated;
     std::string text;
@@ -247,6 +253,8 @@ class LayerCode {
     text += fmt::format("bool classify({}) {{\n",
                         preintegrated ? "Side front, Side back" : "float middle");
     text += classify_ + "  return " + total_ + " > 0.0;\n}\n";
+    if (isAdaptive(scene_.quality))
+      text += "float changeBeyond(Side edge, Side beyond) {\n  return " + beyond_ + ";\n}\n";
     text += fmt::format(
         "void shade(vec3 coordinate, {}vec3 toEye, out vec3 colour, out float extinction) {{\n",
         preintegrated ? "Side front, Side back, " : "");
@@ -264,7 +272,7 @@ class LayerCode {
   std::optional<LayerPass> pass_;
   bool gradient_;
   CurveSet curves_;
-  std::string uniforms_, prepare_, ends_, classify_, total_, body_;
+  std::string uniforms_, prepare_, ends_, classify_, beyond_, total_, body_;
 };
 
 }  // namespace
@@ -292,6 +300,10 @@ std::string magnitudeUniform(std::size_t layer) {
   return fmt::format("magnitude{}", layer);
 }
 
+bool isAdaptive(const Quality& quality) {
+  return quality.maxError && quality.preintegrated;
+}
+
 namespace {
 
 /// Everything before the main function.
@@ -303,6 +315,8 @@ std::string programHead(const Scene& scene, const ProgramOptions& options,
   if (options.invalidVoxels) text += "#define INVALID_VOXELS\n";
   if (options.countSamples) text += "#define COUNT_SAMPLES\n";
   if (options.severalBricks) text += "#define SEVERAL_BRICKS\n";
+  if (isAdaptive(scene.quality)) text += "#define ADAPTIVE\n";
+  if (isAdaptive(scene.quality) && options.isSteep) text += "#define STEEP\n";
   if (scene.quality.preintegrated)
     text += fmt::format("#define PREINTEGRATED\n#define LAYERS {}\n", scene.layers.size());
   for (const char* file : {"lattice.glsl", "ownership.glsl", "opacity.glsl", "volume.glsl",

@@ -13,7 +13,11 @@ struct ProgramOptions {
   bool invalidVoxels = false;
   bool countSamples = false;
   bool severalBricks = false;  ///< blended one behind the other into one frame
+  bool isSteep = false;        ///< a transfer function is; for the adaptive march
 };
+
+/// Whether segments are halved until they are right, instead of taken as they are.
+bool isAdaptive(const Quality& quality);
 
 /// The fused ray-cast program of a scene: all layers and passes, only what the scene uses. Two
 /// scenes that differ in parameter values alone give the same text. Adding a style needs no change

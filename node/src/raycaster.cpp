@@ -1,10 +1,40 @@
 #include "raycaster.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "program_generator.hpp"
 
 namespace burin::node {
+namespace {
+
+/// Adaptive march: three for each node of a piece's tree of halves (kUnits in adaptive.glsl), and
+/// no more than four pieces or so between lattice planes a voxel apart.
+constexpr double kMostSamplesOfSegment = 4 * 3 * (2 * 512);
+/// How much of max_error the halving of one part may change: a ray has many parts, and now and then
+/// halves agree by chance with a whole that is wrong. Less costs little: most samples find out that
+/// nothing needs halving.
+constexpr double kToleranceOfPart = 1.0 / 64;
+/// A transfer function is steep if its extinction, per smallest spacing, changes by more over as
+/// much of the values as the volume's range.
+constexpr double kSteep = 24;
+
+/// Whether some layer may show much of what lies between two values that are close.
+bool isSteep(const Scene& scene, const ProgramVolume& volume) {
+  for (const Layer& layer : scene.layers) {
+    const double unit = layer.transferFunction.opacityUnitLength.value();
+    const auto& points = layer.transferFunction.points;
+    for (std::size_t i = 1; i < points.size(); ++i) {
+      const double change = std::abs(extinctionFromOpacity(points[i].opacity, unit) -
+                                     extinctionFromOpacity(points[i - 1].opacity, unit));
+      const double width = points[i].value - points[i - 1].value;
+      if (change * volume.grid.smallestSpacing() * volume.scale.range > kSteep * width) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
 
 Raycaster::Raycaster(const Scene& scene, const ProgramVolume& volume, const DrawOptions& options)
     : volume_{volume}, options_{options}, vertexArray_{makeVertexArray()} {
@@ -13,8 +43,9 @@ Raycaster::Raycaster(const Scene& scene, const ProgramVolume& volume, const Draw
 }
 
 void Raycaster::setScene(const Scene& scene) {
-  ShaderSource source = generateRaycastProgram(
-      scene, {volume_.scale.hasInvalid, options_.countSamples, options_.severalBricks});
+  ShaderSource source =
+      generateRaycastProgram(scene, {volume_.scale.hasInvalid, options_.countSamples,
+                                     options_.severalBricks, isSteep(scene, volume_)});
   auto known = programs_.find(source.text);
   if (known == programs_.end())
     known = programs_.try_emplace(source.text, fullscreenVertexSource(), source).first;
@@ -25,6 +56,8 @@ void Raycaster::setScene(const Scene& scene) {
   program_->set("frame", static_cast<int>(kFrameUnit));
   program_->set("skipEmpty", options_.skip ? 1.0f : 0.0f);
   program_->set("termination", static_cast<float>(scene_.quality.termination));
+  if (isAdaptive(scene_.quality))
+    program_->set("tolerance", static_cast<float>(kToleranceOfPart * *scene_.quality.maxError));
 }
 
 void Raycaster::drawPixels(const PixelRect& pixels, double stepVoxels, RankStatistics& statistics) {
@@ -36,7 +69,8 @@ void Raycaster::drawPixels(const PixelRect& pixels, double stepVoxels, RankStati
   // The counters are 32 bits wide: bands of rows whose rays cannot have more samples than that.
   const VolumeGrid& grid = volume_.grid;
   const double planes = 2 * grid.boundingRadius() / (stepVoxels * grid.smallestSpacing()) + 2;
-  const int rows = std::max(1, static_cast<int>(0x1p32 / planes / pixels.width()));
+  const double samples = planes * (isAdaptive(scene_.quality) ? kMostSamplesOfSegment : 1);
+  const int rows = std::max(1, static_cast<int>(0x1p32 / samples / pixels.width()));
   for (int y = pixels.y0; y < pixels.y1; y += rows) {
     counters_->begin();
     gl().Scissor(pixels.x0, y, pixels.width(), std::min(rows, pixels.y1 - y));

@@ -8,17 +8,55 @@
 
 #include "burin/common/error.hpp"
 #include "reference_layer.hpp"
+#include "reference_pieces.hpp"
 #include "reference_ray.hpp"
 #include "reference_volume.hpp"
 
 namespace burin::node {
 
+namespace {
+
+/// Halvings of a piece below which two agreeing answers may agree by chance, and after which halves
+/// are as good as points.
+constexpr int kFewestHalvings = 2;
+constexpr int kMostHalvings = 30;
+
+/// What a part of a ray adds, premultiplied.
+struct Span {
+  glm::dvec3 colour{0};
+  double opacity = 0;
+};
+
+Span over(const Span& front, const Span& back) {
+  return {front.colour + (1 - front.opacity) * back.colour,
+          front.opacity + (1 - front.opacity) * back.opacity};
+}
+
+double difference(const Span& a, const Span& b) {
+  const glm::dvec3 colour = glm::abs(a.colour - b.colour);
+  return std::max({colour.r, colour.g, colour.b, std::abs(a.opacity - b.opacity)});
+}
+
+}  // namespace
+
 struct ReferenceRenderer::State {
   State(const Scene& givenScene, BrickSource& source, const std::optional<double>& gradientScale);
+
+  /// A ray in index space.
+  struct Path {
+    glm::dvec3 origin{0}, direction{0};  ///< per depth
+    double worldPerDepth = 1;
+    ReferenceView view;
+  };
 
   /// Of a segment, in index space.
   Classified sampleOf(const glm::dvec3& begin, const glm::dvec3& end,
                       const ReferenceView& view) const;
+  Span segment(const Path& path, double begin, double end) const;
+  Span stepped(const Path& path, const DepthInterval& interval) const;
+  Span converged(const Path& path, const DepthInterval& interval) const;
+  Span halved(const Path& path, double begin, double end, const Span& whole, double allowed,
+              int halvings) const;
   glm::dvec4 trace(const ReferenceRay& ray, std::span<const ReferenceLight> lights) const;
 
   Scene scene;
@@ -60,31 +98,69 @@ Classified ReferenceRenderer::State::sampleOf(const glm::dvec3& begin, const glm
   return mixture;
 }
 
+Span ReferenceRenderer::State::segment(const Path& path, double begin, double end) const {
+  const Classified sample =
+      sampleOf(path.origin + begin * path.direction, path.origin + end * path.direction, path.view);
+  if (sample.extinction <= 0) return {};
+  const double alpha = -std::expm1(-sample.extinction * (end - begin) * path.worldPerDepth);
+  return {alpha * sample.colour, alpha};
+}
+
+/// At the scene's step.
+Span ReferenceRenderer::State::stepped(const Path& path, const DepthInterval& interval) const {
+  Span sum;
+  const auto first = static_cast<std::int64_t>(std::floor(interval.near / stepWorld));
+  const auto last = static_cast<std::int64_t>(std::ceil(interval.far / stepWorld));
+  for (std::int64_t k = first; k < last; ++k) {
+    const double begin = std::max(static_cast<double>(k) * stepWorld, interval.near);
+    const double end = std::min(static_cast<double>(k + 1) * stepWorld, interval.far);
+    if (!(begin < end)) continue;
+    sum = over(sum, segment(path, begin, end));
+    if (1 - sum.opacity < scene.quality.termination) break;
+  }
+  return sum;
+}
+
+/// Halved until the scene's max_error is met: half of it is for what lies behind where the ray ends
+/// early, half is dealt to the pieces, all alike.
+Span ReferenceRenderer::State::converged(const Path& path, const DepthInterval& interval) const {
+  const std::vector<double> cuts = smoothPieces(volume, path.origin, path.direction, interval);
+  const double share = *scene.quality.maxError / 2;
+  const double allowed = share / static_cast<double>(cuts.size());
+  Span sum;
+  for (std::size_t i = 0; i + 1 < cuts.size() && 1 - sum.opacity > share; ++i) {
+    const Span whole = segment(path, cuts[i], cuts[i + 1]);
+    sum = over(sum, halved(path, cuts[i], cuts[i + 1], whole, allowed / (1 - sum.opacity), 0));
+  }
+  return sum;
+}
+
+/// A piece whose value rises or falls all the way, so that pre-integrated halves see the same
+/// values as the `whole`: one that shows nothing is nothing.
+Span ReferenceRenderer::State::halved(const Path& path, double begin, double end, const Span& whole,
+                                      double allowed, int halvings) const {
+  if (scene.quality.preintegrated && whole.opacity <= 0) return whole;
+  const double middle = begin + (end - begin) / 2;
+  const Span front = segment(path, begin, middle);
+  const Span back = segment(path, middle, end);
+  const Span both = over(front, back);
+  if (halvings >= kMostHalvings ||
+      (halvings >= kFewestHalvings && difference(both, whole) <= allowed))
+    return both;
+  return over(halved(path, begin, middle, front, allowed, halvings + 1),
+              halved(path, middle, end, back, allowed, halvings + 1));
+}
+
 glm::dvec4 ReferenceRenderer::State::trace(const ReferenceRay& ray,
                                            std::span<const ReferenceLight> lights) const {
-  glm::dvec3 colour{0};
-  double opacity = 0;
   const auto visible = visibleInterval(ray, volume.grid(), scene.clip);
   if (!visible) return glm::dvec4{0};
   const double worldPerDepth = glm::length(ray.direction);
-  const ReferenceView view{-ray.direction / worldPerDepth, lights};
-  const glm::dvec3 originIndex = volume.grid().indexFromWorld(ray.origin);
-  const glm::dvec3 directionIndex = volume.grid().worldToIndex() * ray.direction;
-  const auto first = static_cast<std::int64_t>(std::floor(visible->near / stepWorld));
-  const auto last = static_cast<std::int64_t>(std::ceil(visible->far / stepWorld));
-  for (std::int64_t k = first; k < last; ++k) {
-    const double begin = std::max(static_cast<double>(k) * stepWorld, visible->near);
-    const double end = std::min(static_cast<double>(k + 1) * stepWorld, visible->far);
-    if (!(begin < end)) continue;
-    const Classified sample =
-        sampleOf(originIndex + begin * directionIndex, originIndex + end * directionIndex, view);
-    if (sample.extinction <= 0) continue;
-    const double alpha = -std::expm1(-sample.extinction * (end - begin) * worldPerDepth);
-    colour += (1 - opacity) * alpha * sample.colour;
-    opacity += (1 - opacity) * alpha;
-    if (1 - opacity < scene.quality.termination) break;
-  }
-  return {colour, opacity};
+  const Path path{volume.grid().indexFromWorld(ray.origin),
+                  volume.grid().worldToIndex() * ray.direction, worldPerDepth,
+                  ReferenceView{-ray.direction / worldPerDepth, lights}};
+  const Span sum = scene.quality.maxError ? converged(path, *visible) : stepped(path, *visible);
+  return {sum.colour, sum.opacity};
 }
 
 ReferenceRenderer::ReferenceRenderer(const Scene& scene, BrickSource& source,

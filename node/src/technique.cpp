@@ -27,6 +27,10 @@ void checkTechnique(const Scene& scene, Technique technique, Precision precision
          "quality.max_error bounds what steps are wrong by, not a framebuffer of precision {}: "
          "expected float, or quality.step_voxels",
          name(precision));
+  } else if (scene.quality.maxError && scene.quality.preintegrated) {
+    fail(ExitCode::kUsage,
+         "quality.max_error with pre-integration is a matter of each ray, not of slices: expected "
+         "--technique raycast, quality.preintegrated false, or quality.step_voxels");
   }
 }
 

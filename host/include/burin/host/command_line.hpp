@@ -99,6 +99,15 @@ struct BenchAccuracyOptions {
   int repeats = 5;
 };
 
+/// burin bench max-error
+struct BenchMaxErrorOptions {
+  std::vector<std::string> volumes;        ///< files; none: the procedural kinds
+  std::filesystem::path folder = "bench";  ///< --out
+  bool quick = false;
+  int side = 128;                  ///< --size: of the square frames
+  double smallestStep = 1.0 / 64;  ///< --smallest-step: of the fixed steps, voxels
+};
+
 /// burin bench scaling
 struct BenchScalingOptions {
   std::string input;   ///< SCENE or VOLUME, for strong scaling only; empty: built-in scenes
@@ -120,7 +129,7 @@ struct Answer {
 
 using Command = std::variant<RenderOptions, InfoOptions, MakeVolumeOptions, StylesOptions,
                              BenchCompositingOptions, BenchSkipOptions, BenchAccuracyOptions,
-                             BenchScalingOptions, Answer>;
+                             BenchMaxErrorOptions, BenchScalingOptions, Answer>;
 
 /// Reads the arguments (without the program's name). Depends on nothing else, so that all ranks
 /// come to the same result. `ranks`: how many take part. Throws Error{kUsage}, one line.

@@ -14,6 +14,7 @@ int runStyles(const Communicator& comm);
 int runBenchCompositing(const Communicator& comm, const BenchCompositingOptions& options);
 int runBenchSkip(const Communicator& comm, const BenchSkipOptions& options);
 int runBenchAccuracy(const Communicator& comm, const BenchAccuracyOptions& options);
+int runBenchMaxError(const Communicator& comm, const BenchMaxErrorOptions& options);
 int runBenchScaling(const Communicator& comm, const BenchScalingOptions& options);
 
 }  // namespace burin::host

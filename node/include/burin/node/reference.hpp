@@ -15,7 +15,9 @@ namespace burin::node {
 /// A ray is eye + depth * direction(pixel), the direction scaled to depth 1. Its segments are
 /// [k, k+1] * step in depth, k any integer, clipped to the volume's box and the clip planes and
 /// sampled at their middle (design, "The sample lattice is global and planar"); with
-/// quality.preintegrated their classes are means over the values between their ends'.
+/// quality.preintegrated their classes are means over the values between their ends'. With
+/// quality.max_error there is no step: a ray is cut where the volume bends or turns (cells' faces,
+/// extremes within them) and the pieces are halved until that changes the pixel by no more.
 class ReferenceRenderer {
  public:
   /// Loads all voxels. `scene` must be resolved (opacity unit lengths set).
