@@ -115,11 +115,15 @@ TEST(RankInvariance, RanksWithNothingToShow) {
   nothing.layers[0].transferFunction.points[1].opacity = 0;
   worker.update(nothing);
   EXPECT_TRUE(worker.visibilityOrder(views[0]).size() <= static_cast<std::size_t>(world().size()));
-  if (const auto frame = drawTogether(worker, views[0])) EXPECT_EQ(largestAlpha(*frame), 0);
+  if (const auto frame = drawTogether(worker, views[0])) {
+    EXPECT_EQ(largestAlpha(*frame), 0);
+  }
   // From nothing at all, loaded nowhere, to the ball, and back.
   node::Worker grows{world(), nothing, source, {.bricks = 4 * world().size()}};
   EXPECT_TRUE(grows.visibilityOrder(views[0]).empty());
-  if (const auto frame = drawTogether(grows, views[0])) EXPECT_EQ(largestAlpha(*frame), 0);
+  if (const auto frame = drawTogether(grows, views[0])) {
+    EXPECT_EQ(largestAlpha(*frame), 0);
+  }
   grows.update(scene);
   worker.update(scene);
   const auto after = drawTogether(grows, views[0]);

@@ -324,7 +324,8 @@ TEST(Slices, WhatATechniqueCannotDrawIsRefused) {
   Scene bounded = plain;
   bounded.quality.maxError = 0.01;
   EXPECT_THAT(refusal(bounded, source, slices({}, Precision::kHalf)),
-              testing::HasSubstr("quality.max_error"));
+              testing::HasSubstr("precision half"));
+  EXPECT_THAT(refusal(bounded, source, slices({})), testing::HasSubstr("each ray"));
 }
 
 }  // namespace
