@@ -78,7 +78,7 @@ std::string diagram(std::span<const std::string> scenes, std::string_view label,
 std::string skipCsv(std::span<const Row> rows) {
   std::string text =
       "scene,visible_fraction,skip,median_ms,samples_visited,samples_shaded,"
-      "samples_in_occupied_cells,leaps,ratio_to_dense,smallest_ms,largest_ms,repeats,edit_ms\n";
+      "samples_in_occupied_cells,leaps,ratio_to_dense,smallest_ms,largest_ms,edit_ms,repeats\n";
   for (const Row& row : rows) {
     const std::string ratio =
         row.ratioToDense > 0 ? fmt::format("{:.5f}", row.ratioToDense) : std::string{};
@@ -86,7 +86,7 @@ std::string skipCsv(std::span<const Row> rows) {
     text += fmt::format("{},{:.6g},{},{:.4f},{},{},{},{},{},{:.4f},{:.4f},{},{}\n", row.scene,
                         row.visibleFraction, row.isSkipping ? "on" : "off", row.medianMs,
                         row.samplesVisited, row.samplesShaded, row.samplesInOccupiedCells,
-                        row.leaps, ratio, row.smallestMs, row.largestMs, row.repeats, edit);
+                        row.leaps, ratio, row.smallestMs, row.largestMs, edit, row.repeats);
   }
   return text;
 }
