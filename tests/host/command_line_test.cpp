@@ -52,11 +52,12 @@ TEST(CommandLine, Techniques) {
   const RenderOptions slices = parseRender({"s.json", "--technique", "slices"});
   EXPECT_EQ(slices.worker.technique, node::Technique::kSlices);
   EXPECT_EQ(slices.worker.precision, node::Precision::kFloat);
-  for (const auto precision :
-       {node::Precision::kFloat, node::Precision::kHalf, node::Precision::kByte})
-    EXPECT_EQ(parseRender({"s.json", "--technique", "slices", "--precision", name(precision)})
-                  .worker.precision,
-              precision);
+  for (const auto& [word, precision] : {std::pair{"float", node::Precision::kFloat},
+                                        {"half", node::Precision::kHalf},
+                                        {"byte", node::Precision::kByte}})
+    EXPECT_EQ(
+        parseRender({"s.json", "--technique", "slices", "--precision", word}).worker.precision,
+        precision);
   EXPECT_THAT(usageError({"render", "s.json", "--technique", "slice"}), HasSubstr("--technique"));
   EXPECT_THAT(usageError({"render", "s.json", "--technique", "slices", "--precision", "double"}),
               HasSubstr("--precision"));

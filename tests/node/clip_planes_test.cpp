@@ -47,8 +47,12 @@ TEST(ClearClipped, LeavesOutWhatIsBehindByItsCorners) {
       for (int y = 0; y < 20; ++y)
         for (int x = 0; x < 13; ++x, ++at) {
           const double height = highest(planes[0], cubes, {x, y, z}, grid.centreIndex());
-          if (height >= -0.25) EXPECT_EQ(marks[at], 1) << i << ": " << height;
-          if (height < -kMargin) EXPECT_EQ(marks[at], 0) << i << ": " << height;
+          if (height >= -0.25) {
+            EXPECT_EQ(marks[at], 1) << i << ": " << height;
+          }
+          if (height < -kMargin) {
+            EXPECT_EQ(marks[at], 0) << i << ": " << height;
+          }
           cleared += marks[at] == 0 ? 1 : 0;
         }
   }

@@ -57,7 +57,7 @@ TEST(SceneUpdate, AfterAnyEditsThePictureIsThatOfANewWorker) {
   // Ghost layers that a scene before needed stay, and textures of another size round otherwise by
   // 3e-6: with slices both workers load as many from the start.
   const node::WorkerOptions slices{
-      .skip = false, .technique = node::Technique::kSlices, .wholeBricks = true, .ghostLayers = 2};
+      .skip = false, .wholeBricks = true, .technique = node::Technique::kSlices, .ghostLayers = 2};
   for (const auto& [options, edits] :
        {Run{{.wholeBricks = true}, 25}, Run{{.skip = false, .wholeBricks = true}, 25},
         Run{slices, 8}}) {

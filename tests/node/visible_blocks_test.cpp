@@ -84,7 +84,9 @@ TEST_F(VisibleBlocksTest, CellsOutsideShowNothing) {
             if (!shows(cell)) continue;
             const IndexBox near =
                 intersection(brick, {cell - reach, cell + 1 + reach});  // its segments' middles
-            if (!near.empty()) ASSERT_TRUE(part.contains(near)) << round;
+            if (!near.empty()) {
+              ASSERT_TRUE(part.contains(near)) << round;
+            }
           }
     }
   }
