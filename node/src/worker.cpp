@@ -98,6 +98,7 @@ struct Worker::State {
   BrickTree tree;
   int ghosts = 0;                           ///< of the bricks loaded
   std::vector<IndexBox> parts;              ///< by brick: its cells that its owner has loaded
+  bool isWhole = false;                     ///< the last load went well
   std::vector<BrickId> mine;                ///< this rank's bricks
   std::optional<OffscreenContext> context;  ///< before everything that holds GL names
   std::unique_ptr<BrickRenderer> renderer;
@@ -127,6 +128,7 @@ struct Worker::State {
   bool isLoaded(const Scene& next, const Shown& what) const;
   void measure();
   void load();
+  void loadParts();
   void classify();
 };
 
@@ -159,7 +161,7 @@ bool Worker::State::isSplitBadly(const Scene& next, const Shown& what) const {
 /// Whether the bricks hold all that a scene needs. The same answer on every rank.
 bool Worker::State::isLoaded(const Scene& next, const Shown& what) const {
   const int layers = ghostLayers(next, options);
-  if (layers > ghosts || (gradientNeeded(next) && !hasGradients)) return false;
+  if (!isWhole || layers > ghosts || (gradientNeeded(next) && !hasGradients)) return false;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const IndexBox needed = neededPart(BrickId{static_cast<std::uint32_t>(i)}, what, layers);
     if (!needed.empty() && !parts[i].contains(needed)) return false;
@@ -178,11 +180,24 @@ void Worker::State::measure() {
   renderer.reset();  // its programs know the gradients' scale
 }
 
-/// Collective. Splits the volume for the scene and loads what it can show of this rank's bricks.
+/// Collective. Splits the volume for the scene and loads what it can show of this rank's bricks. If
+/// that fails there are none.
 void Worker::State::load() {
-  const VolumeInfo& volume = source.info();
   if (context) context->makeCurrent();
   bricks.clear();
+  isWhole = false;
+  try {
+    loadParts();
+    isWhole = true;
+  } catch (...) {
+    bricks.clear();
+    std::ranges::fill(parts, IndexBox{});
+    throw;
+  }
+}
+
+void Worker::State::loadParts() {
+  const VolumeInfo& volume = source.info();
   measure();
   shown = whatShows(scene);
   ghosts = ghostLayers(scene, options);
