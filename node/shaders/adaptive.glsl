@@ -63,13 +63,8 @@ void main() {
   float sufficient = sufficientOpacity();
   if (sufficient <= 0.0) return;
   Ray ray = pixelRay();
-  // As in raycast.glsl.
-  vec2 mine = boxInterval(ray.origin, ray.along, max(brickLo, boxLo), min(brickHi, boxHi));
-  if (!(ray.begin < ray.end) || mine.x > mine.y + 1.0) return;
-  int j = int(floor(max(mine.x - 1.5, ray.begin)));
-  int last = int(ceil(min(mine.y + 1.5, ray.end))) - 1;
-  while (j <= last && !owned(samplePosition(ray, j))) ++j;
-  while (last > j && !owned(samplePosition(ray, last))) --last;
+  int j, last;
+  if (!ownedSegments(ray, j, last)) return;
 
   uint visited = 0u, shaded = 0u, inOccupied = 0u, leaps = 0u;
   SkipState skip = beginSkipping(ray, j);

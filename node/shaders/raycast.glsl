@@ -29,14 +29,8 @@ void main() {
   float sufficient = sufficientOpacity();
   if (sufficient <= 0.0) return;
   Ray ray = pixelRay();
-  // The brick's own interval only bounds the search, a plane wider at each end than rounding needs;
-  // ownership decides. Owned samples are consecutive, because every coordinate is monotonic in j.
-  vec2 mine = boxInterval(ray.origin, ray.along, max(brickLo, boxLo), min(brickHi, boxHi));
-  if (!(ray.begin < ray.end) || mine.x > mine.y + 1.0) return;
-  int j = int(floor(max(mine.x - 1.5, ray.begin)));
-  int last = int(ceil(min(mine.y + 1.5, ray.end))) - 1;
-  while (j <= last && !owned(samplePosition(ray, j))) ++j;
-  while (last > j && !owned(samplePosition(ray, last))) --last;
+  int j, last;
+  if (!ownedSegments(ray, j, last)) return;
 
   // The driver moves nothing out of loops, evaluates both sides of every branch and the body of every
   // loop at least once. So what the loop needs is computed here, it has no loops inside, and each
