@@ -27,7 +27,7 @@ void write(const BenchAccuracyOptions& options, std::span<const AccuracyMeasurem
 
 }  // namespace
 
-int runBenchAccuracy(const Communicator& comm, const BenchAccuracyOptions& options) {
+int runCommand(const Communicator& comm, const BenchAccuracyOptions& options) {
   onRoot(comm, [&] { createOutputFolder(options.folder, "accuracy.csv"); });
   AccuracyPlan plan;
   plan.repeats = options.repeats;

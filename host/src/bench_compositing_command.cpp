@@ -145,7 +145,7 @@ Outcome measureOn(const Communicator& part, const BenchCompositingOptions& optio
 
 }  // namespace
 
-int runBenchCompositing(const Communicator& comm, const BenchCompositingOptions& options) {
+int runCommand(const Communicator& comm, const BenchCompositingOptions& options) {
   onRoot(comm, [&] { createOutputFolder(options.folder, "compositing.csv"); });
   RenderOptions what;
   what.input = options.input;

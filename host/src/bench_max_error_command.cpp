@@ -53,7 +53,7 @@ NamedScene opened(const Communicator& comm, const Wanted& wanted) {
 
 }  // namespace
 
-int runBenchMaxError(const Communicator& comm, const BenchMaxErrorOptions& options) {
+int runCommand(const Communicator& comm, const BenchMaxErrorOptions& options) {
   onRoot(comm, [&] { createOutputFolder(options.folder, "max_error.csv"); });
   MaxErrorPlan plan;
   plan.side = options.side;

@@ -135,7 +135,7 @@ void write(const BenchScalingOptions& options, std::span<const ScalingMeasuremen
 
 }  // namespace
 
-int runBenchScaling(const Communicator& comm, const BenchScalingOptions& options) {
+int runCommand(const Communicator& comm, const BenchScalingOptions& options) {
   onRoot(comm, [&] { createOutputFolder(options.folder, "scaling.csv"); });
   auto input = strongInput(comm, options);
   Results results;

@@ -88,7 +88,7 @@ void write(const BenchSkipOptions& options, std::span<const SkipMeasurement> row
 
 }  // namespace
 
-int runBenchSkip(const Communicator& comm, const BenchSkipOptions& options) {
+int runCommand(const Communicator& comm, const BenchSkipOptions& options) {
   onRoot(comm, [&] { createOutputFolder(options.folder, "skip.csv"); });
   SkipBench bench{comm, options};
   if (options.input.empty() && options.volume.empty()) {

@@ -57,7 +57,7 @@ std::string describeValues(const node::VolumeSurvey& survey) {
 
 }  // namespace
 
-int runInfo(const Communicator& comm, const InfoOptions& options) {
+int runCommand(const Communicator& comm, const InfoOptions& options) {
   VolumeChoice choice;
   choice.file = options.volume;
   options.raw.applyTo(choice);

@@ -15,38 +15,6 @@
 namespace burin::host {
 namespace {
 
-int runCommand(const Communicator& comm, const RenderOptions& options) {
-  return runRender(comm, options);
-}
-int runCommand(const Communicator& comm, const InfoOptions& options) {
-  return runInfo(comm, options);
-}
-int runCommand(const Communicator& comm, const MakeVolumeOptions& options) {
-  return runMakeVolume(comm, options);
-}
-int runCommand(const Communicator& comm, const StylesOptions&) {
-  return runStyles(comm);
-}
-int runCommand(const Communicator& comm, const BenchCompositingOptions& options) {
-  return runBenchCompositing(comm, options);
-}
-int runCommand(const Communicator& comm, const BenchAccuracyOptions& options) {
-  return runBenchAccuracy(comm, options);
-}
-int runCommand(const Communicator& comm, const BenchMaxErrorOptions& options) {
-  return runBenchMaxError(comm, options);
-}
-int runCommand(const Communicator& comm, const BenchSkipOptions& options) {
-  return runBenchSkip(comm, options);
-}
-int runCommand(const Communicator& comm, const BenchScalingOptions& options) {
-  return runBenchScaling(comm, options);
-}
-int runCommand(const Communicator& comm, const Answer& answer) {
-  if (comm.isRoot()) std::fputs(answer.text.c_str(), stdout);
-  return 0;
-}
-
 /// Every rank comes here with the same failure; one of them says it.
 int failAlike(const Communicator& comm, const Error& error) {
   if (comm.isRoot()) writeLog("", error.what(), false);

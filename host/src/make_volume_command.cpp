@@ -28,7 +28,7 @@ void makeVolume(const MakeVolumeOptions& options) {
 
 }  // namespace
 
-int runMakeVolume(const Communicator& comm, const MakeVolumeOptions& options) {
+int runCommand(const Communicator& comm, const MakeVolumeOptions& options) {
   const InterruptWatch watch;
   onRoot(comm, [&] { makeVolume(options); });
   return static_cast<int>(ExitCode::kDone);

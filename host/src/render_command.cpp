@@ -4,7 +4,7 @@
 
 namespace burin::host {
 
-int runRender(const Communicator& comm, const RenderOptions& options) {
+int runCommand(const Communicator& comm, const RenderOptions& options) {
   setQuiet(options.quiet);
   Session session{comm, options};
   return session.run();

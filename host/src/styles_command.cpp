@@ -5,7 +5,7 @@
 
 namespace burin::host {
 
-int runStyles(const Communicator& comm) {
+int runCommand(const Communicator& comm, const StylesOptions&) {
   if (comm.isRoot()) std::fputs(styleHelp().c_str(), stdout);
   return 0;
 }

@@ -66,12 +66,16 @@ struct MakeVolumeOptions {
   std::filesystem::path output;
 };
 
-/// burin bench compositing
-struct BenchCompositingOptions {
-  std::string input;   ///< SCENE or VOLUME whose footprints are composited; empty: built-in ones
+/// What most benchmarks take.
+struct BenchOptions {
+  std::string input;   ///< SCENE or VOLUME to measure instead of the built-in scenes
   std::string volume;  ///< --volume, as of RenderOptions
   std::filesystem::path folder = "bench";  ///< --out
   bool quick = false;
+};
+
+/// burin bench compositing; INPUT is the scene whose footprints are composited
+struct BenchCompositingOptions : BenchOptions {
   std::vector<int> ranks;  ///< rank counts to measure, ascending, each <= those of the run
   std::vector<int> sides;  ///< of the square frames, pixels, ascending
   int repeats = 9;
@@ -80,21 +84,13 @@ struct BenchCompositingOptions {
 };
 
 /// burin bench skip
-struct BenchSkipOptions {
-  std::string input;   ///< SCENE or VOLUME to measure instead of the built-in scenes
-  std::string volume;  ///< --volume, as of RenderOptions
-  std::filesystem::path folder = "bench";  ///< --out
-  bool quick = false;
+struct BenchSkipOptions : BenchOptions {
   int side = 256;  ///< --size: voxels along each axis of the built-in volumes
   int repeats = 5;
 };
 
 /// burin bench accuracy
-struct BenchAccuracyOptions {
-  std::string input;   ///< SCENE or VOLUME to measure instead of the built-in scenes
-  std::string volume;  ///< --volume, as of RenderOptions
-  std::filesystem::path folder = "bench";  ///< --out
-  bool quick = false;
+struct BenchAccuracyOptions : BenchOptions {
   int side = 256;  ///< --size: of the square frame
   int repeats = 5;
 };
@@ -108,12 +104,8 @@ struct BenchMaxErrorOptions {
   double smallestStep = 1.0 / 64;  ///< --smallest-step: of the fixed steps, voxels
 };
 
-/// burin bench scaling
-struct BenchScalingOptions {
-  std::string input;   ///< SCENE or VOLUME, for strong scaling only; empty: built-in scenes
-  std::string volume;  ///< --volume, as of RenderOptions
-  std::filesystem::path folder = "bench";  ///< --out
-  bool quick = false;
+/// burin bench scaling; INPUT is for strong scaling only
+struct BenchScalingOptions : BenchOptions {
   std::vector<int> bricks;  ///< numbers of ranks that are measured one by one, ascending
   int side = 256;           ///< --size: voxels along each axis of the built-in volume
   int repeats = 3;

@@ -1,0 +1,9 @@
+#include "options/describe.hpp"
+
+namespace burin::host {
+
+Finish describeStyles(OptionList&) {
+  return [](int) { return StylesOptions{}; };
+}
+
+}  // namespace burin::host

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+
+#include "burin/host/command_line.hpp"
+#include "options/option_list.hpp"
+
+namespace burin::host {
+
+/// --dims, --type, --endian and --spacing of a bare raw file, as they were typed.
+struct RawText {
+  std::string dims, type, endian, spacing;
+};
+
+void addRawOptions(OptionList& list, RawText& text);
+
+/// Throws Error{kUsage} naming the option that makes no sense.
+RawLayout rawLayout(const RawText& text);
+
+/// INPUT, a scene or a volume.
+void addInput(OptionList& list, std::string& input);
+/// --volume, the volume drawn with a scene.
+void addVolume(OptionList& list, std::string& volume);
+/// Throws Error{kUsage} if `input` is a volume and `volume` is given, too.
+void checkVolumeChoice(const std::string& input, const std::string& volume);
+
+}  // namespace burin::host
