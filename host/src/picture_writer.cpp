@@ -1,14 +1,12 @@
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
+#include <dlfcn.h>
 
-#include <memory>
 #include <span>
-#include <vector>
 
 #include "burin/common/error.hpp"
 #include "burin/common/temporary_file.hpp"
 #include "burin/host/command_line.hpp"
 #include "burin/host/picture.hpp"
+#include "picture_encoder.hpp"
 
 namespace burin::host {
 
@@ -16,58 +14,84 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void failWriting(const fs::path& target, const std::string& reason) {
-  fail(ExitCode::kRank, "{}: cannot be written: {}", target.string(), reason);
+/// Beside the program, in the build tree as where it is installed.
+fs::path moduleFile() {
+  std::error_code none;
+  const fs::path program = fs::read_symlink("/proc/self/exe", none);
+  return (program.parent_path() / BURIN_PICTURES_MODULE).lexically_normal();
 }
 
-void describe(OIIO::ImageSpec& spec, const PictureMetadata& metadata) {
-  spec.attribute("Software", fmt::format("burin {}", programVersion()));
-  spec.attribute("burin:version", programVersion());
-  spec.attribute("burin:scene", metadata.scene);
+/// Never closed: OpenImageIO has threads of its own.
+EncodePicture* openEncoder() {
+  // Lazy, as programs are linked: binding every function of every library would take seconds.
+  void* const library = dlopen(moduleFile().c_str(), RTLD_LAZY | RTLD_LOCAL);
+  void* const function = library == nullptr ? nullptr : dlsym(library, kEncodePicture);
+  // NOLINTNEXTLINE(concurrency-mt-unsafe): one thread
+  if (function == nullptr) fail(ExitCode::kRank, "no pictures can be written: {}", dlerror());
+  return reinterpret_cast<EncodePicture*>(function);
+}
+
+EncodePicture& encoder() {
+  static EncodePicture* const function = openEncoder();
+  return *function;
+}
+
+void describe(PictureToEncode& picture, const PictureMetadata& metadata) {
+  const auto add = [&](const char* key, std::string value) {
+    picture.attributes.emplace_back(key, std::move(value));
+  };
+  add("Software", fmt::format("burin {}", programVersion()));
+  add("burin:version", programVersion());
+  add("burin:scene", metadata.scene);
   // As text: PNG has no other kind of entry.
-  if (metadata.stepVoxels)
-    spec.attribute("burin:step_voxels", fmt::format("{}", *metadata.stepVoxels));
-  spec.attribute("burin:orbit_deg", fmt::format("{}", metadata.orbitDeg));
+  if (metadata.stepVoxels) add("burin:step_voxels", fmt::format("{}", *metadata.stepVoxels));
+  add("burin:orbit_deg", fmt::format("{}", metadata.orbitDeg));
 }
 
-/// The whole file in memory: the library's own writing of PNG does not notice a full disk.
-std::vector<unsigned char> encode(const fs::path& target, const std::string& format,
-                                  const OIIO::ImageSpec& spec, const void* pixels) {
-  std::vector<unsigned char> bytes;
-  OIIO::Filesystem::IOVecOutput sink{bytes};
-  const auto out = OIIO::ImageOutput::create(format);
-  if (!out) failWriting(target, OIIO::geterror());
-  const bool isWhole = out->set_ioproxy(&sink) && out->open(target.string(), spec) &&
-                       out->write_image(spec.format, pixels) && out->close();
-  if (!isWhole) failWriting(target, out->geterror());
-  return bytes;
-}
-
-void writePicture(const fs::path& target, const std::string& format, const OIIO::ImageSpec& spec,
-                  const void* pixels) {
-  const auto bytes = encode(target, format, spec, pixels);
-  writeFile(target, std::as_bytes(std::span{bytes}));
+void writePicture(const fs::path& target, const PictureToEncode& picture) {
+  EncodedPicture encoded;
+  encoder()(picture, encoded);
+  if (!encoded.error.empty())
+    fail(ExitCode::kRank, "{}: cannot be written: {}", target.string(), encoded.error);
+  writeFile(target, std::as_bytes(std::span{encoded.bytes}));
 }
 
 }  // namespace
 
+void loadPictureEncoder() {
+  encoder();
+}
+
 void writePng(const fs::path& target, const DisplayPicture& picture,
               const PictureMetadata& metadata) {
-  OIIO::ImageSpec spec{picture.size.width, picture.size.height, picture.channels,
-                       OIIO::TypeDesc::UINT8};
-  describe(spec, metadata);
-  spec.attribute("oiio:ColorSpace", "sRGB");
-  spec.attribute("oiio:UnassociatedAlpha", 1);
-  writePicture(target, "png", spec, picture.bytes.data());
+  PictureToEncode file{.format = "png",
+                       .name = target.string(),
+                       .width = picture.size.width,
+                       .height = picture.size.height,
+                       .channels = picture.channels,
+                       .isFloat = false,
+                       .pixels = picture.bytes.data(),
+                       .attributes = {}};
+  describe(file, metadata);
+  file.attributes.emplace_back("oiio:ColorSpace", "sRGB");
+  file.attributes.emplace_back("oiio:UnassociatedAlpha", 1);
+  writePicture(target, file);
 }
 
 void writeExr(const fs::path& target, ImageView<const Rgba> frame,
               const PictureMetadata& metadata) {
   static_assert(sizeof(Rgba) == 4 * sizeof(float));
-  OIIO::ImageSpec spec{frame.size().width, frame.size().height, 4, OIIO::TypeDesc::FLOAT};
-  describe(spec, metadata);
-  spec.attribute("DateTime", "");  // keeps the library from adding the time of day
-  writePicture(target, "openexr", spec, frame.pixels().data());
+  PictureToEncode file{.format = "openexr",
+                       .name = target.string(),
+                       .width = frame.size().width,
+                       .height = frame.size().height,
+                       .channels = 4,
+                       .isFloat = true,
+                       .pixels = frame.pixels().data(),
+                       .attributes = {}};
+  describe(file, metadata);
+  file.attributes.emplace_back("DateTime", "");  // keeps the library from adding the time of day
+  writePicture(target, file);
 }
 
 }  // namespace burin::host

@@ -36,9 +36,12 @@ Session::Session(const Communicator& comm, const RenderOptions& options)
       deferInterrupts([&] { writeTextFile(options_.saveScene, text); });
     });
   }
+  onRoot(comm_, [&] {
+    loadPictureEncoder();
+    display_.emplace(prepared_.scene, options_);
+  });
   progress_.show("loading bricks");
   frames_ = makeFrameMaker();
-  if (comm_.isRoot()) display_.emplace(prepared_.scene, options_);
   statistics_.ranks = comm_.size();
   statistics_.samplesCounted = options_.worker.countSamples && !options_.reference;
 }

@@ -16,6 +16,7 @@ install(FILES ${CMAKE_BINARY_DIR}/burinConfig.cmake ${CMAKE_BINARY_DIR}/burinCon
         DESTINATION ${burin_package_dir})
 
 install(TARGETS burin RUNTIME)
+install(TARGETS burin_pictures LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/burin)
 install(DIRECTORY configs/ DESTINATION ${CMAKE_INSTALL_DATADIR}/burin/configs
         FILES_MATCHING PATTERN "*.json")
 install(FILES README.md CHANGELOG.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -130,6 +130,22 @@ TEST(Program, AFullStandardOutputIsAnError) {
   EXPECT_THAT(onlyLine(result.err), HasSubstr("standard output"));
 }
 
+TEST(Program, WithoutItsModuleItDrawsNothing) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write(
+      "s.json",
+      R"({"schema_version": 1, "volume": {"procedural": "ramp", "dims": [4, 4, 4]}, "layers": [)"
+      R"({"transfer_function": {"points": [{"value": 1, "color": "#fff", "opacity": 0.1}]}}]})");
+  const std::string alone = "alone() { cp \"$1\" " + (folder / "burin") + " && shift && " +
+                            (folder / "burin") + " \"$@\"; }; alone";
+  const auto result = runBurin({"render", scene, "-o", folder / "a.png"}, 0, alone);
+  EXPECT_EQ(result.exitCode, 4);
+  EXPECT_THAT(onlyLine(result.err), HasSubstr("burin_pictures.so"));
+  EXPECT_THAT(folder.names(), ::testing::ElementsAre("burin", "s.json"));
+  // What draws no picture does not need it.
+  EXPECT_EQ(runBurin({"styles"}, 0, alone).exitCode, 0);
+}
+
 TEST(Program, OneRankIsNoDedicatedHost) {
   const auto result = runBurin({"render", "s.json", "--dedicated-host"}, 1);
   EXPECT_EQ(result.exitCode, 2);

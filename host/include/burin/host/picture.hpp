@@ -31,6 +31,10 @@ struct PictureMetadata {
   double orbitDeg = 0;               ///< azimuth added to the scene's (--orbit)
 };
 
+/// Loads the module that encodes pictures, which writePng and writeExr do themselves: so that a
+/// broken installation is found before anything is drawn. Throws Error{kRank}.
+void loadPictureEncoder();
+
 /// Write a whole file under a temporary name, then rename it. PNG: 8 bits. EXR: float,
 /// premultiplied linear RGBA. Metadata: "Software", "burin:version", "burin:scene",
 /// "burin:step_voxels", "burin:orbit_deg". No time of day: the same picture gives the same bytes.
