@@ -35,3 +35,4 @@ burin_library(node
           src/slicer.cpp src/technique.cpp src/worker.cpp ${embedded}
   PUBLIC burin::volumes burin::compositor
   PRIVATE $<BUILD_INTERFACE:burin_gl_loader> ${CMAKE_DL_LIBS})
+burin_unity(burin_node)

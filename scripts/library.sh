@@ -28,14 +28,15 @@ run() {
 
 # build_preset PRESET [TARGET…]: configures and builds it (without TARGET: everything).
 build_preset() {
-  local preset=$1 jobs strict=()
+  local preset=$1 jobs for_ci=()
   shift
-  # CI lets no warning pass; a user's newer compiler may have some we have not seen.
-  [[ ${CI:-} != true || $preset != release ]] || strict=(-DBURIN_WARNINGS_AS_ERRORS=ON)
+  # CI lets no warning pass; a user's newer compiler may have some we have not seen. And it compiles
+  # everything, once.
+  [[ ${CI:-} != true || $preset != release ]] || for_ci=(-DBURIN_WARNINGS_AS_ERRORS=ON -DBURIN_UNITY=ON)
   jobs=$(build_jobs)
   cd "$burin_root" || exit
   say "configure, preset $preset"
-  run cmake --preset "$preset" ${strict[@]+"${strict[@]}"}
+  run cmake --preset "$preset" ${for_ci[@]+"${for_ci[@]}"}
   say "build, preset $preset, $jobs jobs"
   run cmake --build --preset "$preset" --parallel "$jobs" ${1:+--target "$@"}
 }

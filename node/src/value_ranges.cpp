@@ -9,7 +9,6 @@
 namespace burin::node {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kWidening = 0x1p-8f;
 
 /// Running minimum (or maximum) over ±1 along one axis of a grid.
@@ -34,6 +33,7 @@ void spreadAxis(std::vector<float>& values, const glm::ivec3& size, int axis, Pi
 
 ValueRanges::ValueRanges(const glm::ivec3& cubes) : size{cubes} {
   const std::size_t count = IndexBox{glm::ivec3{0}, cubes}.count();
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
   lowest.assign(count, kInfinity);
   highest.assign(count, -kInfinity);
 }

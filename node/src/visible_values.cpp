@@ -7,7 +7,6 @@
 namespace burin::node {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Of a stored value, relative: filtering equal texels, and where the table begins in a float.
 constexpr double kRounding = 1e-6;
 
@@ -34,6 +33,7 @@ std::vector<TransferTable> transferTables(const Scene& scene, const ValueScale& 
 
 VisibleValues::VisibleValues(const Scene& scene, std::span<const TransferTable> tables,
                              const ValueScale& scale) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < tables.size(); ++i) {
     const auto& points = scene.layers[i].transferFunction.points;
     const TransferTable& table = tables[i];

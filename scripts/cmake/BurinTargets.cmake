@@ -9,6 +9,11 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_L
   # Warns of "text" + std::string when optimising (GCC bug 105651, mended in 13).
   target_compile_options(burin_warnings INTERFACE -Wno-restrict)
 endif()
+option(BURIN_UNITY "Compile several files at once" OFF)
+if(BURIN_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  # Takes the files of a unity build for headers, of which each program would get its own namespace.
+  target_compile_options(burin_warnings INTERFACE -Wno-subobject-linkage)
+endif()
 if(BURIN_SANITIZE)
   add_compile_options(-fsanitize=${BURIN_SANITIZE} -fno-omit-frame-pointer
                       -fno-sanitize-recover=all)
@@ -40,8 +45,8 @@ function(burin_use_headers target owner)
 endfunction()
 
 # burin_unity(TARGET …): compiles several of their files at once where BURIN_UNITY is on (preset
-# asan-ubsan): much of what a small file takes is headers and templates that its neighbours have, too.
-option(BURIN_UNITY "Compile several files at once" OFF)
+# asan-ubsan; preset release in CI): much of what a small file takes is headers and templates that its
+# neighbours have, too.
 function(burin_unity)
   set_target_properties(${ARGN} PROPERTIES UNITY_BUILD ${BURIN_UNITY} UNITY_BUILD_BATCH_SIZE 9)
 endfunction()

@@ -14,7 +14,8 @@ TEST_P(CoveringArray, EqualsTheSerialCombination) {
 
 INSTANTIATE_TEST_SUITE_P(
     Small, CoveringArray,
-    testing::ValuesIn(test::coveringRows({{1, 2, 3, 5, 8}, {{1, 1}, {97, 1}, {261, 67}}, 1e9})),
+    testing::ValuesIn(test::coveringRows(
+        {{1, 2, 3, 5, 7, 8, 13}, {{1, 1}, {97, 1}, {997, 1}, {157, 43}, {261, 67}}, 1e9})),
     [](const auto& row) { return test::nameOf(row.param); });
 
 }  // namespace

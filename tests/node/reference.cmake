@@ -4,3 +4,6 @@ burin_add_test(reference_test
           reference_converged_test.cpp reference_gradient_test.cpp reference_style_test.cpp reference_voxel_test.cpp
   LIBRARIES burin::reference
   LABELS node sanitize)
+burin_unity(reference_test)
+# It has a kColour of its own, as others do.
+set_source_files_properties(reference_converged_test.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)

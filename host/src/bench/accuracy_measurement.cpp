@@ -4,6 +4,7 @@
 #include <chrono>
 #include <memory>
 
+#include "bench/frame_copy.hpp"
 #include "bench/median.hpp"
 #include "burin/host/frame_maker.hpp"
 
@@ -71,13 +72,6 @@ Quality qualityOf(const AccuracyMeasurement& way) {
   if (way.stepVoxels) quality = {*way.stepVoxels, 1e-4, way.preintegrated, {}};
   quality.combine = way.combine;
   return quality;
-}
-
-Image<Rgba> copyOf(ImageView<const Rgba> frame) {
-  Image<Rgba> image{frame.size()};
-  for (int y = 0; y < frame.size().height; ++y)
-    std::ranges::copy(frame.row(y), image.row(y).begin());
-  return image;
 }
 
 /// Collective. The reference's picture on rank 0.

@@ -14,7 +14,6 @@ namespace burin::host::bench {
 namespace {
 
 constexpr int kTag = 7;
-constexpr int kRepeats = 5;
 constexpr int kFlood = 64;
 constexpr std::size_t kSmall = 8;
 /// Both beyond what MPI sends without being asked, so that they differ in nothing but bytes.
@@ -26,6 +25,7 @@ double seconds() {
 }
 
 double medianOf(const std::function<double()>& measure) {
+  constexpr int kRepeats = 5;
   std::array<double, kRepeats> values{};
   std::ranges::generate(values, measure);
   std::ranges::sort(values);

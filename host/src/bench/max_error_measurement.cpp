@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "bench/frame_copy.hpp"
 #include "bench/picture_error.hpp"
 #include "burin/common/error.hpp"
 #include "burin/host/frame_maker.hpp"
@@ -14,13 +15,6 @@ namespace burin::host::bench {
 namespace {
 
 using Row = MaxErrorMeasurement;
-
-Image<Rgba> copyOf(ImageView<const Rgba> frame) {
-  Image<Rgba> image{frame.size()};
-  for (int y = 0; y < frame.size().height; ++y)
-    std::ranges::copy(frame.row(y), image.row(y).begin());
-  return image;
-}
 
 /// A volume with one transfer function, in all views.
 class Views {

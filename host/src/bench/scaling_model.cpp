@@ -21,9 +21,10 @@ constexpr int kMostRanks = 65536;
 constexpr double kFramePixels = 1024.0 * 1024.0;
 constexpr double kCovered = 0.2;
 
-constexpr std::array kSchedules{std::pair{std::string_view{"swap"}, ScheduleKind::kBinarySwap},
-                                std::pair{std::string_view{"radix-k"}, ScheduleKind::kRadixK},
-                                std::pair{std::string_view{"direct"}, ScheduleKind::kDirectSend}};
+constexpr std::array kModelledSchedules{
+    std::pair{std::string_view{"swap"}, ScheduleKind::kBinarySwap},
+    std::pair{std::string_view{"radix-k"}, ScheduleKind::kRadixK},
+    std::pair{std::string_view{"direct"}, ScheduleKind::kDirectSend}};
 
 /// Everybody sends a notice to everybody; beyond kMostRanksWithCoverage the coverages are summed
 /// along a tree besides. The agreement is a tree up and down.
@@ -60,7 +61,7 @@ double frameMs(int ranks, ScheduleKind kind, bool isDense, const ReplayMachine& 
 std::string scalingCsv(const FrameModel& model) {
   std::string text = "kind,schedule,ranks,modelled_ms\n";
   for (const bool isDense : {true, false}) {
-    for (const auto& [name, kind] : kSchedules) {
+    for (const auto& [name, kind] : kModelledSchedules) {
       for (int ranks = 2; ranks <= kMostRanks; ranks *= 2) {
         text += fmt::format("{},{},{},{:.4f}\n", isDense ? "dense" : "sparse", name, ranks,
                             frameMs(ranks, kind, isDense, model.machine));
@@ -88,7 +89,7 @@ set multiplot layout 1,2
 )";
   for (const std::string_view kind : {"dense", "sparse"}) {
     text += fmt::format("set title '{}'\nplot ", kind);
-    for (const auto& [name, unused] : kSchedules) {
+    for (const auto& [name, unused] : kModelledSchedules) {
       text += fmt::format(
           "t using (strcol('kind') eq '{0}' && strcol('schedule') eq '{1}' ? column('ranks') : "
           "NaN):'modelled_ms' title '{1}' with linespoints, ",

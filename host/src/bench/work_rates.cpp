@@ -16,11 +16,10 @@ namespace {
 
 using namespace compositor;
 
-constexpr int kRepeats = 5;
-
 /// Median seconds of a call.
 template <typename Work>
 double timeOf(Work&& work) {
+  constexpr int kRepeats = 5;
   std::array<double, kRepeats> times{};
   for (double& time : times) {
     const auto start = std::chrono::steady_clock::now();
