@@ -1,5 +1,6 @@
 #include "scene_keys.hpp"
 
+#include "burin/common/combine_name.hpp"
 #include "camera_keys.hpp"
 #include "layer_keys.hpp"
 
@@ -124,9 +125,7 @@ Codec<Quality> qualityCodec() {
            "How layers and lines at one sample become one: sum, or over, each drawn over the one "
            "before (slices only; depends on the step)",
            word({"sum", "over"}),
-           [](const Q& q) {
-             return std::optional<std::string>{q.combine == Combine::kOver ? "over" : "sum"};
-           },
+           [](const Q& q) { return std::optional<std::string>{name(q.combine)}; },
            [](Q& q, const std::string& value) {
              q.combine = value == "over" ? Combine::kOver : Combine::kSum;
            })},

@@ -1,5 +1,6 @@
 #include "burin/host/display.hpp"
 
+#include "burin/common/combine_name.hpp"
 #include "burin/common/error.hpp"
 #include "burin/common/temporary_file.hpp"
 #include "burin/host/scene_setup.hpp"
@@ -80,12 +81,21 @@ void Display::finish(ImageView<const Rgba> frame) {
   if (!isExr()) picture_ = toDisplay(frame_, scene_.background);
 }
 
+PictureMetadata Display::metadataFor(const fs::path& target, double orbitDeg) const {
+  const Quality& quality = scene_.quality;
+  PictureMetadata metadata;
+  metadata.scene = sceneTextFor(scene_, target);
+  if (!quality.maxError) metadata.stepVoxels = quality.stepVoxels;
+  metadata.orbitDeg = orbitDeg;
+  metadata.technique = options_.reference ? "reference" : name(options_.worker.technique);
+  metadata.precision = options_.reference ? "double" : name(options_.worker.precision);
+  metadata.combine = name(quality.combine);
+  return metadata;
+}
+
 void Display::write(int index, double orbitDeg) const {
   const fs::path target = frameFile(options_, index);
-  const Quality& quality = scene_.quality;
-  const PictureMetadata metadata{
-      sceneTextFor(scene_, target),
-      quality.maxError ? std::nullopt : std::optional{quality.stepVoxels}, orbitDeg};
+  const PictureMetadata metadata = metadataFor(target, orbitDeg);
   if (isExr()) {
     writeExr(target, frame_, metadata);
   } else {

@@ -46,6 +46,9 @@ void describe(PictureToEncode& picture, const PictureMetadata& metadata) {
   // As text: PNG has no other kind of entry.
   if (metadata.stepVoxels) add("burin:step_voxels", fmt::format("{}", *metadata.stepVoxels));
   add("burin:orbit_deg", fmt::format("{}", metadata.orbitDeg));
+  add("burin:technique", metadata.technique);
+  add("burin:precision", metadata.precision);
+  add("burin:combine", metadata.combine);
 }
 
 void writePicture(const fs::path& target, const PictureToEncode& picture) {

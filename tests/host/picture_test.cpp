@@ -22,7 +22,8 @@ namespace {
 using test::TemporaryFolder;
 using ::testing::ElementsAre;
 
-const PictureMetadata kMetadata{R"({"name": "Schädel \"a\""})", 0.25, 12.5};
+const PictureMetadata kMetadata{
+    R"({"name": "Schädel \"a\""})", 0.25, 12.5, "slices", "half", "over"};
 
 /// Premultiplied pixels with values in [0, 1], more of them near 0 than not.
 Image<Rgba> randomFrame(ImageSize size) {
@@ -46,6 +47,9 @@ void expectMetadata(const OIIO::ImageSpec& spec) {
   EXPECT_EQ(spec.get_string_attribute("burin:scene"), kMetadata.scene);
   EXPECT_EQ(spec.get_string_attribute("burin:step_voxels"), "0.25");
   EXPECT_EQ(spec.get_string_attribute("burin:orbit_deg"), "12.5");
+  EXPECT_EQ(spec.get_string_attribute("burin:technique"), "slices");
+  EXPECT_EQ(spec.get_string_attribute("burin:precision"), "half");
+  EXPECT_EQ(spec.get_string_attribute("burin:combine"), "over");
   EXPECT_EQ(spec.get_string_attribute("burin:version"), programVersion());
 }
 

@@ -74,6 +74,13 @@ ReadPicture readPicture(const std::string& file) {
   return picture;
 }
 
+/// How a picture says it was drawn: technique, precision, combine.
+std::vector<std::string> wayOf(const std::string& file) {
+  const OIIO::ImageSpec spec = readPicture(file).spec;
+  return {spec.get_string_attribute("burin:technique"),
+          spec.get_string_attribute("burin:precision"), spec.get_string_attribute("burin:combine")};
+}
+
 double largestDifference(const ReadPicture& a, const ReadPicture& b) {
   EXPECT_EQ(a.values.size(), b.values.size());
   double largest = 0;
@@ -132,6 +139,11 @@ TEST_F(Render, SlicesDrawTheSamePictureOnAnyRanks) {
   }
   draw(path("bytes.exr"), {"--technique", "slices", "--precision", "byte"});
   EXPECT_GT(largestDifference(readPicture(path("bytes.exr")), rays), 1e-3);
+  draw(path("over.png"), {"--technique", "slices", "--set", "quality.combine=over"});
+  EXPECT_THAT(wayOf(path("rays.exr")), ElementsAre("raycast", "float", "sum"));
+  EXPECT_THAT(wayOf(path("slices.exr")), ElementsAre("slices", "float", "sum"));
+  EXPECT_THAT(wayOf(path("bytes.exr")), ElementsAre("slices", "byte", "sum"));
+  EXPECT_THAT(wayOf(path("over.png")), ElementsAre("slices", "float", "over"));
 }
 
 TEST_F(Render, PngIsTheFrameOverTheBackground) {
@@ -386,6 +398,7 @@ TEST_F(Render, ReferenceIsCloseAndTheSameOnAnyRanks) {
   draw(path("r1.exr"), {"--reference"});
   draw(path("r3.exr"), {"--reference"}, 3);
   draw(path("rd.exr"), {"--reference", "--dedicated-host"}, 2);
+  EXPECT_THAT(wayOf(path("r1.exr")), ElementsAre("reference", "double", "sum"));
   const ReadPicture reference = readPicture(path("r1.exr"));
   // Issue: at most 1e-4 per channel at the same step, for all styles on smooth volumes.
   EXPECT_LE(largestDifference(readPicture(path("a.exr")), reference), 1e-4);

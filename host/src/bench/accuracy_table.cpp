@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "burin/common/combine_name.hpp"
+
 namespace burin::host::bench {
 
 namespace {
@@ -25,13 +27,9 @@ bool isSliced(const Row& row) {
   return row.technique == node::Technique::kSlices;
 }
 
-const char* combineOf(const Row& row) {
-  return row.combine == Combine::kOver ? "over" : "sum";
-}
-
 std::string wayOf(const Row& row) {
   if (isSliced(row))
-    return fmt::format("slices, {}, {}, step {:g}", name(row.precision), combineOf(row),
+    return fmt::format("slices, {}, {}, step {:g}", name(row.precision), name(row.combine),
                        *row.stepVoxels);
   const std::string how = row.preintegrated ? "pre-integrated" : "midpoint";
   if (row.maxErrorAsked) return fmt::format("{}, max_error 1/{:.0f}", how, 1 / *row.maxErrorAsked);
@@ -112,7 +110,7 @@ std::string accuracyCsv(std::span<const Row> rows) {
         row.scene, row.preintegrated ? 1 : 0, orZero(row.stepVoxels), orZero(row.maxErrorAsked),
         row.medianMs, row.samplesVisited, row.error.largest, row.error.rms, row.error.deltaE,
         row.referenceChange, isOnFront(row, rows) ? 1 : 0, name(row.technique), name(row.precision),
-        combineOf(row));
+        name(row.combine));
   return text;
 }
 

@@ -36,6 +36,7 @@ class Display {
 
  private:
   bool isExr() const;
+  PictureMetadata metadataFor(const std::filesystem::path& target, double orbitDeg) const;
   const Scene& scene_;
   const RenderOptions& options_;
   ImageView<const Rgba> frame_;

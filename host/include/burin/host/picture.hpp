@@ -29,6 +29,9 @@ struct PictureMetadata {
   std::string scene;                 ///< JSON text
   std::optional<double> stepVoxels;  ///< the scene's; unset if every tile chose its own
   double orbitDeg = 0;               ///< azimuth added to the scene's (--orbit)
+  std::string technique;             ///< "raycast", "slices", "reference"
+  std::string precision;  ///< of what samples add up in: "float", "half", "byte", "double"
+  std::string combine;    ///< the scene's: "sum", "over"
 };
 
 /// Loads the module that encodes pictures, which writePng and writeExr do themselves: so that a
@@ -37,8 +40,9 @@ void loadPictureEncoder();
 
 /// Write a whole file under a temporary name, then rename it. PNG: 8 bits. EXR: float,
 /// premultiplied linear RGBA. Metadata: "Software", "burin:version", "burin:scene",
-/// "burin:step_voxels", "burin:orbit_deg". No time of day: the same picture gives the same bytes.
-/// Throw Error{kUsage} if the folder cannot be written to, Error{kRank} if writing fails.
+/// "burin:step_voxels", "burin:orbit_deg", "burin:technique", "burin:precision", "burin:combine".
+/// No time of day: the same picture gives the same bytes. Throw Error{kUsage} if the folder cannot
+/// be written to, Error{kRank} if writing fails.
 void writePng(const std::filesystem::path& target, const DisplayPicture& picture,
               const PictureMetadata& metadata);
 void writeExr(const std::filesystem::path& target, ImageView<const Rgba> frame,
