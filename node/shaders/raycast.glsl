@@ -94,7 +94,7 @@ void main() {
 #ifdef COUNT_SAMPLES
     visited += uint(sampled);
     shaded += uint(visible);
-    inOccupied += uint(sampled && skip.occupied);
+    inOccupied += uint(sampled && isOccupied(skip, 0.5 * (begin + end)));
     leaps += uint(j != before);
 #endif
     j += int(sampled);

@@ -58,6 +58,14 @@ float macrocellExit(inout SkipState state, float where) {
   return min(exits.x, min(exits.y, exits.z));
 }
 
+#ifdef COUNT_SAMPLES
+// Whether the macrocell at `where` planes may be visible.
+bool isOccupied(SkipState state, float where) {
+  vec3 cell = clamp(floor(state.origin + where * state.along), vec3(0.0), state.lastCell);
+  return texture(distanceMap, (cell + 0.5) * state.perMap).r < 0;
+}
+#endif
+
 // What is known of the segments from j on. Afterwards either segment j needs a visit, as do all
 // before knownUntil, or j was moved on to the next segment that may need one.
 #ifdef PREINTEGRATED

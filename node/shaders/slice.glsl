@@ -75,7 +75,7 @@ void main() {
   if (mine) {
     atomicAdd(counters.visited, uint(sampled));
     atomicAdd(counters.shaded, uint(visible));
-    atomicAdd(counters.inOccupied, uint(sampled && skip.occupied));
+    atomicAdd(counters.inOccupied, uint(sampled && isOccupied(skip, 0.5 * (begin + end))));
     atomicAdd(counters.leaps, uint(!sampled));
   }
 #endif

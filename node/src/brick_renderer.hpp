@@ -33,6 +33,9 @@ class BrickRenderer {
   /// compiles nothing. If it throws, the scene before stays.
   virtual void setScene(const Scene& scene) = 0;
 
+  /// What the scene's transfer functions take.
+  virtual std::size_t tableBytes() const = 0;
+
   /// Draws `bricks`, given front to back, into one subimage. Adds the sample counters to
   /// `statistics` if they are counted. `steps` replaces the scene's step if given.
   virtual compositor::SubimageView<Rgba> draw(const Camera& camera,

@@ -19,6 +19,7 @@ class Raycaster : public BrickRenderer {
   Raycaster(const Scene& scene, const ProgramVolume& volume, const DrawOptions& options);
 
   void setScene(const Scene& scene) override;
+  std::size_t tableBytes() const override { return textures_.bytes(); }
   compositor::SubimageView<Rgba> draw(const Camera& camera, std::span<const Brick* const> bricks,
                                       RankStatistics& statistics, const PixelRoom& room,
                                       const StepMap* steps) override;

@@ -31,6 +31,7 @@ class Slicer : public BrickRenderer {
          Precision precision);
 
   void setScene(const Scene& scene) override;
+  std::size_t tableBytes() const override { return textures_.bytes(); }
   compositor::SubimageView<Rgba> draw(const Camera& camera, std::span<const Brick* const> bricks,
                                       RankStatistics& statistics, const PixelRoom& room,
                                       const StepMap* steps) override;

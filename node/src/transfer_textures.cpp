@@ -65,6 +65,16 @@ void TransferTextures::set(const Scene& scene, const ValueScale& scale) {
   textures_ = std::move(textures);
 }
 
+std::size_t TransferTextures::bytes() const {
+  std::size_t sum = 0;
+  for (const TransferTable& table : tables_) {
+    const std::size_t texels = table.entries.size() + 1;
+    sum += table.entries.size() * sizeof(glm::vec4) + table.means.size() * sizeof(glm::dvec4) +
+           (preintegrated_ ? 3 : 1) * texels * sizeof(glm::vec4);
+  }
+  return sum;
+}
+
 void TransferTextures::bind(GLuint firstUnit) const {
   for (std::size_t i = 0; i < textures_.size(); ++i)
     gl().BindTextureUnit(firstUnit + static_cast<GLuint>(i), textures_[i].id());

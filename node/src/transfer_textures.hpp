@@ -23,6 +23,8 @@ class TransferTextures {
   void set(const Scene& scene, const ValueScale& scale);
 
   std::span<const TransferTable> tables() const { return tables_; }
+  /// Of the tables and of their textures.
+  std::size_t bytes() const;
   /// Binds layer i's textures to the units from firstUnit + i * kUnitsPerLayer on.
   void bind(GLuint firstUnit) const;
 

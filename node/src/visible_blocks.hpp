@@ -23,6 +23,8 @@ class VisibleBlocks {
 
   CubeGrid cubes() const { return {glm::ivec3{0}, ranges_.size, blockCells_}; }
 
+  std::size_t bytes() const { return ranges_.bytes(); }
+
   /// Per block 1 if its values may show something, x fastest.
   std::vector<std::uint8_t> mark(const VisibleValues& visible,
                                  std::span<const glm::vec4> clipPlanes,

@@ -89,8 +89,9 @@ struct Worker::State {
   BrickSource& source;
   Scene scene;
   WorkerOptions options;
-  Rank firstOwner{0};  ///< rank of owner 0
-  VolumeSurvey survey;
+  Rank firstOwner{0};   ///< rank of owner 0
+  VolumeSurvey survey;  ///< but its blocks, which `blocks` holds
+  bool isSurveyed = false;
   bool hasGradients = false;  ///< the survey's
   ValueScale scale;
   VisibleBlocks blocks;
@@ -126,6 +127,7 @@ struct Worker::State {
   IndexBox neededPart(BrickId brick, const Shown& what, int ghostLayers) const;
   bool isSplitBadly(const Scene& next, const Shown& what) const;
   bool isLoaded(const Scene& next, const Shown& what) const;
+  std::size_t sharedBytes() const;
   void measure();
   void load();
   void loadParts();
@@ -169,14 +171,22 @@ bool Worker::State::isLoaded(const Scene& next, const Shown& what) const {
   return true;
 }
 
+/// What this rank holds beside its bricks: grows with the volume, but no further than the survey's
+/// blocks do.
+std::size_t Worker::State::sharedBytes() const {
+  return blocks.bytes() + shown.blocks.size() + (renderer ? renderer->tableBytes() : 0);
+}
+
 /// Collective. The survey, and what follows from it, if the scene needs more than there is.
 void Worker::State::measure() {
   const bool needed = gradientNeeded(scene);
-  if (!survey.blocks.lowest.empty() && needed <= hasGradients) return;
+  if (isSurveyed && needed <= hasGradients) return;
   survey = surveyVolume(comm, source, needed);
   hasGradients = needed;
   scale = valueScaleOf(source.info().type, survey);
   blocks = VisibleBlocks{survey, scale};
+  survey.blocks = {};
+  isSurveyed = true;
   renderer.reset();  // its programs know the gradients' scale
 }
 
@@ -316,6 +326,7 @@ compositor::SubimageView<Rgba> Worker::draw(const Camera& camera, RankStatistics
       if (const Brick* brick = state_->find(id)) bricks.push_back(brick);
   }
   statistics.bricks = static_cast<std::int32_t>(state_->mine.size());
+  statistics.residentVoxelBytes += static_cast<std::int64_t>(state_->sharedBytes());
   return drawThese(bricks, camera, statistics, room, steps);
 }
 

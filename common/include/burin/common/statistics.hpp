@@ -22,9 +22,9 @@ struct RankStatistics {
   std::int32_t rank = 0;
   std::int32_t bricks = 0;
   PhaseTimes phases;
-  std::int64_t samplesVisited = 0;  ///< volume fetched at a lattice point; 0 if not counted
-  std::int64_t samplesShaded = 0;   ///< extinction > 0
-  std::int64_t samplesInOccupiedCells = 0;
+  std::int64_t samplesVisited = 0;          ///< volume fetched at a lattice point; 0 if not counted
+  std::int64_t samplesShaded = 0;           ///< extinction > 0
+  std::int64_t samplesInOccupiedCells = 0;  ///< visited, and placed in a cell that may be visible
   std::int64_t leaps = 0;
   std::int64_t bytesSent = 0;
   std::int64_t bytesReceived = 0;

@@ -55,7 +55,7 @@ class Worker {
   /// if bricks were being loaded.
   void update(const Scene& scene);
 
-  const VolumeSurvey& survey() const;
+  const VolumeSurvey& survey() const;  ///< without its blocks
   const BrickTree& tree() const;
 
   /// Ranks that own bricks of which something may show, front to back for this camera. The same on
