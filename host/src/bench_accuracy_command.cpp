@@ -1,33 +1,15 @@
-#include <cstdio>
-
 #include "bench/accuracy_measurement.hpp"
 #include "bench/accuracy_scenes.hpp"
 #include "bench/accuracy_table.hpp"
-#include "bench/gnuplot.hpp"
+#include "bench/bench_output.hpp"
 #include "bench/output_folder.hpp"
-#include "burin/common/log.hpp"
-#include "burin/common/temporary_file.hpp"
 #include "burin/host/commands.hpp"
 #include "burin/host/shared_error.hpp"
 
 namespace burin::host {
 
-namespace {
-
-using namespace bench;
-
-void write(const BenchAccuracyOptions& options, std::span<const AccuracyMeasurement> rows) {
-  writeTextFile(options.folder / "accuracy.csv", accuracyCsv(rows));
-  writeTextFile(options.folder / "accuracy.gp", accuracyPlots(rows));
-  std::fputs(accuracySummary(rows).c_str(), stdout);
-  if (!runGnuplot(options.folder, "accuracy.gp"))
-    warn("gnuplot is not installed (scripts/setup bench), so there are no plots");
-  note("{}: {} measurements", (options.folder / "accuracy.csv").string(), rows.size());
-}
-
-}  // namespace
-
 int runCommand(const Communicator& comm, const BenchAccuracyOptions& options) {
+  using namespace bench;
   onRoot(comm, [&] { createOutputFolder(options.folder, "accuracy.csv"); });
   AccuracyPlan plan;
   plan.repeats = options.repeats;
@@ -41,7 +23,10 @@ int runCommand(const Communicator& comm, const BenchAccuracyOptions& options) {
     const auto measured = measureAccuracy(comm, scene, plan);
     rows.insert(rows.end(), measured.begin(), measured.end());
   }
-  onRoot(comm, [&] { write(options, rows); });
+  onRoot(comm, [&] {
+    publish(options.folder, {"accuracy", accuracyCsv(rows), accuracyPlots(rows),
+                             accuracySummary(rows), rows.size()});
+  });
   return static_cast<int>(ExitCode::kDone);
 }
 

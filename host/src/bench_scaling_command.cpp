@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "bench/bench_output.hpp"
 #include "bench/first_ranks.hpp"
-#include "bench/gnuplot.hpp"
 #include "bench/link_parameters.hpp"
 #include "bench/memory_source.hpp"
 #include "bench/output_folder.hpp"
@@ -14,7 +14,6 @@
 #include "bench/scaling_scenes.hpp"
 #include "bench/scaling_table.hpp"
 #include "burin/common/log.hpp"
-#include "burin/common/temporary_file.hpp"
 #include "burin/host/commands.hpp"
 #include "burin/host/shared_error.hpp"
 
@@ -124,15 +123,6 @@ void measureRanksAlone(const BenchScalingOptions& options, NamedInput& input, Re
   }
 }
 
-void write(const BenchScalingOptions& options, std::span<const ScalingMeasurement> rows) {
-  writeTextFile(options.folder / "scaling.csv", scalingTableCsv(rows));
-  writeTextFile(options.folder / "scaling.gp", scalingTablePlots(rows));
-  std::fputs(scalingSummary(rows).c_str(), stdout);
-  if (!runGnuplot(options.folder, "scaling.gp"))
-    warn("gnuplot is not installed (scripts/setup bench), so there are no plots");
-  note("{}: {} measurements", (options.folder / "scaling.csv").string(), rows.size());
-}
-
 }  // namespace
 
 int runCommand(const Communicator& comm, const BenchScalingOptions& options) {
@@ -141,7 +131,11 @@ int runCommand(const Communicator& comm, const BenchScalingOptions& options) {
   Results results;
   measureWallTimes(comm, input, options.repeats, results);
   onRoot(comm, [&] { measureRanksAlone(options, input, results); });
-  onRoot(comm, [&] { write(options, results.rows()); });
+  onRoot(comm, [&] {
+    const auto& rows = results.rows();
+    publish(options.folder, {"scaling", scalingTableCsv(rows), scalingTablePlots(rows),
+                             scalingSummary(rows), rows.size()});
+  });
   return static_cast<int>(ExitCode::kDone);
 }
 

@@ -4,13 +4,11 @@
 #include <utility>
 #include <vector>
 
-#include "bench/gnuplot.hpp"
+#include "bench/bench_output.hpp"
 #include "bench/output_folder.hpp"
 #include "bench/skip_measurement.hpp"
 #include "bench/skip_scenes.hpp"
 #include "bench/skip_table.hpp"
-#include "burin/common/log.hpp"
-#include "burin/common/temporary_file.hpp"
 #include "burin/host/commands.hpp"
 #include "burin/host/shared_error.hpp"
 
@@ -77,15 +75,6 @@ class SkipBench {
   std::vector<SkipMeasurement> rows_;
 };
 
-void write(const BenchSkipOptions& options, std::span<const SkipMeasurement> rows) {
-  writeTextFile(options.folder / "skip.csv", skipCsv(rows));
-  writeTextFile(options.folder / "skip.gp", skipPlots(rows));
-  std::fputs(skipTargets(rows).c_str(), stdout);
-  if (!runGnuplot(options.folder, "skip.gp"))
-    warn("gnuplot is not installed (scripts/setup bench), so there are no plots");
-  note("{}: {} measurements", (options.folder / "skip.csv").string(), rows.size());
-}
-
 }  // namespace
 
 int runCommand(const Communicator& comm, const BenchSkipOptions& options) {
@@ -96,7 +85,11 @@ int runCommand(const Communicator& comm, const BenchSkipOptions& options) {
   } else {
     bench.measureInput();
   }
-  onRoot(comm, [&] { write(options, bench.rows()); });
+  onRoot(comm, [&] {
+    const auto& rows = bench.rows();
+    publish(options.folder,
+            {"skip", skipCsv(rows), skipPlots(rows), skipTargets(rows), rows.size()});
+  });
   return static_cast<int>(ExitCode::kDone);
 }
 

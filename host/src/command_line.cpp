@@ -33,7 +33,9 @@ constexpr CommandEntry kBenchmarks[] = {
     {"accuracy", "Error against time and samples", describeBenchAccuracy},
     {"max-error", "Whether quality.max_error is kept, and at what cost", describeBenchMaxError},
     {"skip", "Skipping empty space, on and off", describeBenchSkip},
-    {"scaling", "Frames on ever more ranks", describeBenchScaling}};
+    {"scaling", "Frames on ever more ranks", describeBenchScaling},
+    {"rates", "Samples per second, against the same program with all lanes busy",
+     describeBenchRates}};
 
 constexpr const char* kProgramFooter = R"(Examples:
   burin render head.nrrd -o head.png                draw a volume with a scene of burin's own

@@ -160,6 +160,50 @@ TEST(BenchCompositing, FolderThatCannotBe) {
   EXPECT_THAT(test::onlyLine(run.err), HasSubstr(file));
 }
 
+// Whatever the times are: with all lanes busy every ray takes as many samples and shades all of
+// them.
+TEST(BenchRates, WritesATableInWhichBusyLanesAreBusy) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("shells.json", R"({ "schema_version": 1,
+    "volume": { "procedural": "shells", "dims": [24, 16, 20], "type": "u8" },
+    "layers": [{ "transfer_function": { "points": [
+      { "value": 100, "color": "#8f1d18", "opacity": 0 },
+      { "value": 255, "color": "#d8473a", "opacity": 0.9 }], "opacity_unit_length": 0.1 } }] })");
+  const auto run =
+      runBurin({"bench", "rates", scene, "--quick", "--size", "64", "--out", folder / "out"}, 1);
+  ASSERT_EQ(run.exitCode, 0) << run.err;
+  const auto lines = readCsv(folder / "out/rates.csv");
+  ASSERT_EQ(lines.size(), 4u);
+  std::map<std::string, std::int64_t> visited;
+  for (const Line& line : lines) {
+    SCOPED_TRACE(line.at("look") + " " + line.at("style"));
+    const auto number = [&](const char* column) { return std::stoll(line.at(column)); };
+    EXPECT_EQ(line.at("scene"), "shells");
+    EXPECT_EQ(number("busy_samples_visited"), number("busy_samples_shaded"));
+    // 19 cells at half a voxel: 38 segments, and one more where no plane lies on a face.
+    const auto segments = number("busy_samples_visited") / number("busy_pixels");
+    EXPECT_EQ(number("busy_samples_visited") % number("busy_pixels"), 0);
+    EXPECT_TRUE(segments == 38 || segments == 39) << segments;
+    EXPECT_LE(number("samples_in_occupied_cells"), number("samples_visited"));
+    EXPECT_LT(number("samples_shaded"), number("samples_visited"));
+    EXPECT_GT(std::stod(line.at("ratio")), 0);
+    visited[line.at("look")] = number("samples_visited");
+  }
+  EXPECT_LT(visited.at("opaque"), visited.at("translucent"));  // rays end
+  EXPECT_THAT(run.out, HasSubstr("translucent: samples visited / shaded"));
+}
+
+TEST(BenchRates, FixedStepsOnly) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("s.json", R"({ "schema_version": 1,
+    "volume": { "procedural": "shells", "dims": [8, 8, 8] }, "quality": { "max_error": 0.01 },
+    "layers": [{ "transfer_function": { "points": [
+      { "value": 0, "color": "#8f1d18", "opacity": 0.5 }] } }] })");
+  const auto run = runBurin({"bench", "rates", scene, "--out", folder / "out"}, 2);
+  EXPECT_EQ(run.exitCode, 2);
+  EXPECT_THAT(test::onlyLine(run.err), HasSubstr("max_error"));
+}
+
 TEST(BenchAccuracy, WritesATableWhoseErrorsFallWithTheStep) {
   const TemporaryFolder folder;
   const std::string scene = folder / "ramp.json";

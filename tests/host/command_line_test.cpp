@@ -358,5 +358,24 @@ TEST(CommandLine, BenchScalingNamesWhatIsWrong) {
               HasSubstr("--size 64 goes with the built-in volumes"));
 }
 
+TEST(CommandLine, BenchRates) {
+  const auto parseRates = [](std::vector<const char*> arguments) {
+    arguments.insert(arguments.begin(), {"bench", "rates"});
+    return std::get<BenchRatesOptions>(parse(arguments));
+  };
+  const BenchRatesOptions defaults = parseRates({});
+  EXPECT_TRUE(defaults.inputs.empty());
+  EXPECT_EQ(defaults.side, 512);
+  EXPECT_EQ(defaults.repeats, 5);
+  EXPECT_EQ(parseRates({"--quick"}).side, 128);
+  const BenchRatesOptions chosen =
+      parseRates({"a.nrrd", "b.json", "--quick", "--size", "64", "--repeats", "7", "--out", "o"});
+  EXPECT_THAT(chosen.inputs, ElementsAre("a.nrrd", "b.json"));
+  EXPECT_EQ(chosen.side, 64);
+  EXPECT_EQ(chosen.repeats, 7);
+  EXPECT_EQ(chosen.folder, "o");
+  EXPECT_THAT(usageError({"bench", "rates", "--repeats", "4"}), HasSubstr("--repeats"));
+}
+
 }  // namespace
 }  // namespace burin::host

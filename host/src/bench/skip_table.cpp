@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "bench/target_line.hpp"
+
 namespace burin::host::bench {
 
 namespace {
@@ -38,12 +40,6 @@ std::optional<double> worstRatio(std::span<const Row> rows, std::int64_t Row::*a
     worst = std::max(worst.value_or(ratio), ratio);
   }
   return worst;
-}
-
-std::string targetLine(std::string_view what, std::optional<double> measured, double most) {
-  if (!measured) return {};
-  return fmt::format("  {:<52}{:>8.4f}   target {:<5} {}\n", what, *measured, most,
-                     *measured <= most ? "met" : "missed");
 }
 
 double perShaded(const Row& row) {
@@ -100,18 +96,18 @@ std::string skipLine(const Row& on, const Row& off) {
 }
 
 std::string skipTargets(std::span<const Row> rows) {
-  std::string text = targetLine("one ball of 1 % of the voxels / dense, time",
+  std::string text = atMostLine("one ball of 1 % of the voxels / dense, time",
                                 onePercentToDense(rows, kBall), 0.08);
-  text += targetLine(fmt::format("{} balls of 1 % together / dense, time", kManyBalls),
+  text += atMostLine(fmt::format("{} balls of 1 % together / dense, time", kManyBalls),
                      onePercentToDense(rows, kBalls), 0.12);
-  text += targetLine("samples visited / in occupied cells, worst scene",
+  text += atMostLine("samples visited / in occupied cells, worst scene",
                      worstRatio(rows, &Row::samplesVisited, &Row::samplesInOccupiedCells), 1.05);
   if (const auto worst = worstRatio(rows, &Row::samplesVisited, &Row::samplesShaded))
     text += fmt::format("  {:<52}{:>8.4f}\n", "samples visited / shaded, worst scene", *worst);
   double edit = -1;
   for (const Row& row : rows) edit = std::max(edit, row.editMs);
   if (edit >= 0)
-    text += targetLine("a transfer-function edit beyond its frame, worst, ms", edit, 50);
+    text += atMostLine("a transfer-function edit beyond its frame, worst, ms", edit, 50);
   return text.empty() ? text : "with skipping\n" + text;
 }
 

@@ -5,11 +5,11 @@
 
 namespace burin::host::bench {
 
-TimedDrawing::TimedDrawing(const Communicator& comm, PreparedScene& prepared,
+TimedDrawing::TimedDrawing(const Communicator& comm, PreparedScene& prepared, const Scene& scene,
                            const node::WorkerOptions& options)
     : comm_{comm},
-      camera_{resolveCamera(prepared.scene, prepared.facts)},
-      worker_{comm, prepared.scene, *prepared.source, options},
+      camera_{resolveCamera(scene, prepared.facts)},
+      worker_{comm, scene, *prepared.source, options},
       room_(camera_.image.pixels()) {}
 
 double TimedDrawing::drawOnce(RankStatistics& statistics, const Scene* changed) {

@@ -15,6 +15,10 @@ class TimedDrawing {
  public:
   /// Collective. `prepared` and `comm` outlive this.
   TimedDrawing(const Communicator& comm, PreparedScene& prepared,
+               const node::WorkerOptions& options)
+      : TimedDrawing{comm, prepared, prepared.scene, options} {}
+  /// The same for another scene (resolved) of that volume.
+  TimedDrawing(const Communicator& comm, PreparedScene& prepared, const Scene& scene,
                const node::WorkerOptions& options);
 
   /// Collective. Milliseconds of one frame, the slowest rank's; of pixels read back into memory
@@ -30,6 +34,7 @@ class TimedDrawing {
   RankStatistics count();
 
   const node::Worker& worker() const { return worker_; }
+  const Camera& camera() const { return camera_; }
 
  private:
   double drawOnce(RankStatistics& statistics, const Scene* changed = nullptr);

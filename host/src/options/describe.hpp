@@ -21,5 +21,6 @@ Finish describeBenchAccuracy(OptionList& list);
 Finish describeBenchMaxError(OptionList& list);
 Finish describeBenchSkip(OptionList& list);
 Finish describeBenchScaling(OptionList& list);
+Finish describeBenchRates(OptionList& list);
 
 }  // namespace burin::host

@@ -111,6 +111,15 @@ struct BenchScalingOptions : BenchOptions {
   int repeats = 3;
 };
 
+/// burin bench rates
+struct BenchRatesOptions {
+  std::vector<std::string> inputs;         ///< scenes and volumes; none: the procedural head
+  std::filesystem::path folder = "bench";  ///< --out
+  bool quick = false;
+  int side = 512;  ///< --size: of the square frames
+  int repeats = 5;
+};
+
 /// burin styles
 struct StylesOptions {};
 
@@ -121,7 +130,7 @@ struct Answer {
 
 using Command = std::variant<RenderOptions, InfoOptions, MakeVolumeOptions, StylesOptions,
                              BenchCompositingOptions, BenchSkipOptions, BenchAccuracyOptions,
-                             BenchMaxErrorOptions, BenchScalingOptions, Answer>;
+                             BenchMaxErrorOptions, BenchScalingOptions, BenchRatesOptions, Answer>;
 
 /// Reads the arguments (without the program's name). Depends on nothing else, so that all ranks
 /// come to the same result. `ranks`: how many take part. Throws Error{kUsage}, one line.

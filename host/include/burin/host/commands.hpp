@@ -16,6 +16,7 @@ int runCommand(const Communicator& comm, const BenchSkipOptions& options);
 int runCommand(const Communicator& comm, const BenchAccuracyOptions& options);
 int runCommand(const Communicator& comm, const BenchMaxErrorOptions& options);
 int runCommand(const Communicator& comm, const BenchScalingOptions& options);
+int runCommand(const Communicator& comm, const BenchRatesOptions& options);
 int runCommand(const Communicator& comm, const Answer& answer);
 
 }  // namespace burin::host
