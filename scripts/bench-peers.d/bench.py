@@ -249,6 +249,12 @@ class Tools:
     versions: dict = dataclasses.field(default_factory=dict)
 
 
+def warn_unless_quiet():
+    if os.getloadavg()[0] > 0.5:
+        print(f"bench-peers: WARNING, the machine is not quiet (load {os.getloadavg()[0]:.1f})",
+              file=sys.stderr)
+
+
 def main():
     parser = argparse.ArgumentParser()
     for name in ("--burin", "--peers", "--out"):
@@ -278,9 +284,7 @@ def main():
     rounds = 2 if repeats >= 6 else 1
     frames = -(-repeats // rounds)
 
-    if os.getloadavg()[0] > 0.5:
-        print(f"bench-peers: WARNING, the machine is not quiet (load {os.getloadavg()[0]:.1f})",
-              file=sys.stderr)
+    warn_unless_quiet()
     tools = Tools(options.burin, options.peers, options.out, options.out / "work")
     tools.work.mkdir(parents=True, exist_ok=True)
     contenders = contenders_of(options.peers, (1, 2) if options.quick else (1, 2, 4))

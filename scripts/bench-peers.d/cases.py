@@ -49,6 +49,8 @@ LOOKS = {
     # Stand-ins where there are no real data.
     "ct-phantom": Look([(-700, "#e8b49a", 0), (-400, "#e8b49a", 0.02), (150, "#f0c7b0", 0.01),
                         (300, "#e8dcc0", 0), (700, "#fff7e6", 0.6)]),
+    # For a first picture: opaque rays end early, others see most of the volume.
+    "shells": Look([(60, "#3b5b8c", 0), (130, "#7a9ac8", 0.02), (255, "#fff0e0", 0.3)]),
     "vessels": Look([(60, "#b43030", 0), (160, "#e06050", 0.3), (255, "#fff0e0", 0.6)]),
 }
 
