@@ -57,6 +57,7 @@ struct ReferenceRenderer::State {
   Span converged(const Path& path, const DepthInterval& interval) const;
   Span halved(const Path& path, double begin, double end, const Span& whole, double allowed,
               int halvings) const;
+  bool meetsNan(const Path& path, double begin, double end) const;
   glm::dvec4 trace(const ReferenceRay& ray, std::span<const ReferenceLight> lights) const;
 
   Scene scene;
@@ -135,17 +136,29 @@ Span ReferenceRenderer::State::converged(const Path& path, const DepthInterval& 
   return sum;
 }
 
+/// Whether NaN voxels begin or end in a piece: its ends may count for it then where there is
+/// nothing.
+bool ReferenceRenderer::State::meetsNan(const Path& path, double begin, double end) const {
+  if (!volume.hasNan()) return false;
+  const auto isValidAt = [&](double depth) {
+    return volume.valueAt(path.origin + depth * path.direction).has_value();
+  };
+  const bool isValid = isValidAt(begin);
+  return isValidAt(begin + (end - begin) / 2) != isValid || isValidAt(end) != isValid;
+}
+
 /// A piece whose value rises or falls all the way, so that pre-integrated halves see the same
 /// values as the `whole`: one that shows nothing is nothing.
 Span ReferenceRenderer::State::halved(const Path& path, double begin, double end, const Span& whole,
                                       double allowed, int halvings) const {
-  if (scene.quality.preintegrated && whole.opacity <= 0) return whole;
+  const bool isMixed = meetsNan(path, begin, end);
+  if (scene.quality.preintegrated && whole.opacity <= 0 && !isMixed) return whole;
   const double middle = begin + (end - begin) / 2;
   const Span front = segment(path, begin, middle);
   const Span back = segment(path, middle, end);
   const Span both = over(front, back);
   if (halvings >= kMostHalvings ||
-      (halvings >= kFewestHalvings && difference(both, whole) <= allowed))
+      (halvings >= kFewestHalvings && !isMixed && difference(both, whole) <= allowed))
     return both;
   return over(halved(path, begin, middle, front, allowed, halvings + 1),
               halved(path, middle, end, back, allowed, halvings + 1));

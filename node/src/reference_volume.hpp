@@ -17,6 +17,7 @@ class ReferenceVolume {
   explicit ReferenceVolume(BrickSource& source);
 
   const VolumeGrid& grid() const { return grid_; }
+  bool hasNan() const { return hasNan_; }
 
   /// Trilinear value at a position in index space, clamped to the grid. Nothing where less than
   /// half of the interpolation weight falls on voxels that are not NaN; else NaN voxels do not
