@@ -14,7 +14,7 @@ int runCommand(const Communicator& comm, const BenchAccuracyOptions& options) {
   AccuracyPlan plan;
   plan.repeats = options.repeats;
   if (options.quick) {
-    plan.referenceStep = 1.0 / 16;
+    plan.referenceError = 1e-4;
     plan.sliceSteps = {1};
   }
   std::vector<AccuracyMeasurement> rows;

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <memory>
 
-#include "bench/frame_copy.hpp"
+#include "bench/converged_picture.hpp"
 #include "bench/median.hpp"
 #include "burin/host/frame_maker.hpp"
 
@@ -74,14 +74,6 @@ Quality qualityOf(const AccuracyMeasurement& way) {
   return quality;
 }
 
-/// Collective. The reference's picture on rank 0.
-Image<Rgba> truthOf(const Communicator& comm, PreparedScene& prepared, double step,
-                    const Camera& camera) {
-  prepared.scene.quality = {step, 0, true, {}};
-  RankStatistics unused;
-  return copyOf(makeReferenceFrames(comm, prepared, {}, [](double) {})->make(camera, unused));
-}
-
 /// Collective.
 std::unique_ptr<FrameMaker> makerOf(const Communicator& comm, PreparedScene& prepared,
                                     const AccuracyMeasurement& way, bool countSamples) {
@@ -96,8 +88,9 @@ std::unique_ptr<FrameMaker> makerOf(const Communicator& comm, PreparedScene& pre
 std::vector<AccuracyMeasurement> measureAccuracy(const Communicator& comm, NamedScene& scene,
                                                  const AccuracyPlan& plan) {
   const Camera camera = resolveCamera(scene.prepared.scene, scene.prepared.facts);
-  const Image<Rgba> coarse = truthOf(comm, scene.prepared, 2 * plan.referenceStep, camera);
-  const Image<Rgba> truth = truthOf(comm, scene.prepared, plan.referenceStep, camera);
+  const Image<Rgba> coarse =
+      convergedPicture(comm, scene.prepared, 2 * plan.referenceError, camera);
+  const Image<Rgba> truth = convergedPicture(comm, scene.prepared, plan.referenceError, camera);
   std::vector<AccuracyMeasurement> rows = waysOf(scene, plan);
   std::vector<std::unique_ptr<FrameMaker>> makers;
   for (const AccuracyMeasurement& way : rows)

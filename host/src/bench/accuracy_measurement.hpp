@@ -23,14 +23,14 @@ struct AccuracyMeasurement {
   double medianMs = 0;  ///< of whole frames, choosing the step included
   std::int64_t samplesVisited = 0;
   PictureError error;
-  double referenceChange = 0;  ///< largest change of the truth when its step is halved
+  double referenceChange = 0;  ///< largest change of the truth when it is asked for twice as much
 };
 
 struct AccuracyPlan {
   std::vector<double> steps{4, 2, 1, 0.5, 0.25, 0.125};
   std::vector<double> maxErrors{1.0 / 32, 1.0 / 128, 1.0 / 512};
   std::vector<double> sliceSteps{2, 1, 0.5, 0.25};  ///< of slices, in every precision
-  double referenceStep = 1.0 / 32;
+  double referenceError = 2e-5;                     ///< that the truth is asked for
   int repeats = 5;
 };
 

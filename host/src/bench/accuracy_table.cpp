@@ -118,8 +118,8 @@ std::string accuracySummary(std::span<const Row> rows) {
   std::string text;
   for (const std::string& scene : scenesOf(rows)) {
     const auto first = std::ranges::find(rows, scene, &Row::scene);
-    text += fmt::format("{}: the reference changes by {:.2g} when its step is halved\n", scene,
-                        first->referenceChange);
+    text += fmt::format("{}: the reference changes by {:.2g} when it is asked for twice as much\n",
+                        scene, first->referenceChange);
     text += fmt::format("  {:34} {:>10} {:>12} {:>9} {:>9} {:>8}\n", "", "median ms", "samples",
                         "max", "rms", "delta E");
     for (const Row& row : rows) {

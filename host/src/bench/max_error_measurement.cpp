@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "bench/frame_copy.hpp"
+#include "bench/converged_picture.hpp"
 #include "bench/picture_error.hpp"
 #include "burin/common/error.hpp"
 #include "burin/host/frame_maker.hpp"
@@ -58,14 +58,9 @@ class Views {
 
  private:
   std::vector<Image<Rgba>> truths(double allowed) {
-    prepared_.scene.quality = Quality{};
-    prepared_.scene.quality.maxError = allowed;
-    const auto reference = makeReferenceFrames(comm_, prepared_, {}, [](double) {});
     std::vector<Image<Rgba>> pictures;
-    for (const Camera& camera : cameras_) {
-      RankStatistics unused;
-      pictures.push_back(copyOf(reference->make(camera, unused)));
-    }
+    for (const Camera& camera : cameras_)
+      pictures.push_back(convergedPicture(comm_, prepared_, allowed, camera));
     return pictures;
   }
 

@@ -11,8 +11,9 @@ namespace {
 constexpr const char* kAccuracyFooter =
     R"(Draws the built-in scenes (or INPUT) at fixed steps and for max_error settings, with and without
 pre-integration, and as slices in float, half and byte framebuffers, in turns, and compares with the
-double-precision reference, whose own change on halving its step is shown. Writes accuracy.csv and
-accuracy.png (gnuplot: error against time and samples, the Pareto front marked) to the folder.)";
+double-precision reference, which has no step; its own change when it is asked for twice as much is
+shown. Writes accuracy.csv and accuracy.png (gnuplot: error against time and samples, the Pareto front
+marked) to the folder.)";
 
 }  // namespace
 

@@ -76,7 +76,8 @@ void addRunOptions(OptionList& list, Render& render) {
       .needs("--frames");
   const Option reference = list.flag(
       "--reference", options.reference,
-      "Draw with the slow double-precision reference; it has no bricks and skips nothing");
+      "Draw with the slow double-precision reference; it has no bricks and skips nothing. With "
+      "quality.max_error it has no steps either, but divides rays until they are that close");
   list.choice("--technique", render.technique, {"raycast", "slices"},
               "Fused rays, or slices: a draw for each sample plane, layer and pass (raycast)")
       .excludes(reference);

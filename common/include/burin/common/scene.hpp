@@ -93,7 +93,7 @@ struct Quality {
   /// middle.
   bool preintegrated = true;
   /// Largest difference (premultiplied linear RGBA) to the converged picture that is asked for: the
-  /// renderer then chooses the step for each view, and rays end at an eighth of it.
+  /// renderer then samples as finely as that takes, and rays end at a sixteenth of it.
   std::optional<double> maxError;
   Combine combine = Combine::kSum;
   friend bool operator==(const Quality&, const Quality&) = default;
