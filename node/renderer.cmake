@@ -13,7 +13,7 @@ target_include_directories(burin_gl_loader PUBLIC $<BUILD_INTERFACE:${glad_dir}/
 
 set(shader_files
   fullscreen.vert lattice.glsl ownership.glsl opacity.glsl volume.glsl skip.glsl preintegration.glsl sides.glsl
-  shading.glsl adaptive.glsl raycast.glsl slice.glsl resolve.glsl
+  shading.glsl adaptive.glsl cells.glsl halving.glsl raycast.glsl slice.glsl resolve.glsl
   styles/surface.glsl styles/light.glsl styles/tone.glsl styles/edges.glsl styles/specular.glsl)
 list(TRANSFORM shader_files PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/shaders/ OUTPUT_VARIABLE shader_paths)
 set(embedded ${CMAKE_CURRENT_BINARY_DIR}/embedded_shaders.cpp)

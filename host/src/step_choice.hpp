@@ -12,7 +12,7 @@ namespace burin::host {
 /// Rays that end early may be wrong by their threshold: the part of a largest error that is left to
 /// them, so that the steps have less of it.
 constexpr double terminationOf(double maxError) {
-  return maxError / 8;
+  return maxError / 16;
 }
 
 /// Collective: draws a view with these steps, the frame on rank 0.

@@ -8,20 +8,26 @@
 namespace burin::node {
 namespace {
 
-/// Adaptive march: three for each node of a piece's tree of halves (kUnits in adaptive.glsl), and
-/// no more than four pieces or so between lattice planes a voxel apart.
-constexpr double kMostSamplesOfSegment = 4 * 3 * (2 * 512);
-/// How much of max_error the halving of one part may change: a ray has many parts, and now and then
-/// halves agree by chance with a whole that is wrong. Less costs little: most samples find out that
-/// nothing needs halving.
-constexpr double kToleranceOfPart = 1.0 / 64;
+/// Look-ups of a segment in the adaptive march: two for each node of its tree of halves (kUnits in
+/// adaptive.glsl); in cells, of which a segment crosses no more than 16 or so, each in up to three
+/// stretches, only three but where there are voxels that are not valid.
+constexpr double kMostOfTree = 2 * (2 * 512);
+constexpr double kMostOfTreeWithInvalid = 2 * (2 * 8192);
+constexpr double kMostOfCells = 16 * 3;
+/// How much of max_error the halving of one part may change, as a ray has many parts whose errors
+/// add up; less in cells, where halving takes no look-ups.
+constexpr double kToleranceOfPart = 1.0 / 10;
+constexpr double kToleranceInCell = 1.0 / 32;
 /// A transfer function is steep if its extinction, per smallest spacing, changes by more over as
-/// much of the values as the volume's range. At 24, thin vessels under a function of slope 2.3 were
-/// off by 1.3 times 1/512, as what rises above the function's begin between look-ups was missed.
-constexpr double kSteep = 1;
+/// much of the values as the volume's range. At 9, thin wires (stent) were off by 1.5 times 1/128
+/// without cuts at cells' faces; at 2, vessels by 1.7 times 1/512.
+constexpr double kSteep = 6;
+constexpr double kSteepBelow = 1.0 / 256;  ///< max_error below which less is steep
+constexpr double kSteepThere = 1;
 
 /// Whether some layer may show much of what lies between two values that are close.
 bool isSteep(const Scene& scene, const ProgramVolume& volume) {
+  const double steep = scene.quality.maxError.value_or(1) < kSteepBelow ? kSteepThere : kSteep;
   for (const Layer& layer : scene.layers) {
     const double unit = layer.transferFunction.opacityUnitLength.value();
     const auto& points = layer.transferFunction.points;
@@ -29,10 +35,16 @@ bool isSteep(const Scene& scene, const ProgramVolume& volume) {
       const double change = std::abs(extinctionFromOpacity(points[i].opacity, unit) -
                                      extinctionFromOpacity(points[i - 1].opacity, unit));
       const double width = points[i].value - points[i - 1].value;
-      if (change * volume.grid.smallestSpacing() * volume.scale.range > kSteep * width) return true;
+      if (change * volume.grid.smallestSpacing() * volume.scale.range > steep * width) return true;
     }
   }
   return false;
+}
+
+double mostSamplesOfSegment(const Scene& scene, const ProgramVolume& volume, bool steep) {
+  if (!isAdaptive(scene.quality)) return 1;
+  if (volume.scale.hasInvalid) return (steep ? kMostOfCells : 1) * kMostOfTreeWithInvalid;
+  return steep ? kMostOfCells : kMostOfTree;
 }
 
 }  // namespace
@@ -44,21 +56,23 @@ Raycaster::Raycaster(const Scene& scene, const ProgramVolume& volume, const Draw
 }
 
 void Raycaster::setScene(const Scene& scene) {
-  ShaderSource source =
-      generateRaycastProgram(scene, {volume_.scale.hasInvalid, options_.countSamples,
-                                     options_.severalBricks, isSteep(scene, volume_)});
+  const bool steep = isSteep(scene, volume_);
+  ShaderSource source = generateRaycastProgram(
+      scene, {volume_.scale.hasInvalid, options_.countSamples, options_.severalBricks, steep});
   auto known = programs_.find(source.text);
   if (known == programs_.end())
     known = programs_.try_emplace(source.text, fullscreenVertexSource(), source).first;
   textures_.set(scene, volume_.scale);
   program_ = &known->second;
   scene_ = scene;
+  mostSamplesOfSegment_ = mostSamplesOfSegment(scene, volume_, steep);
   setSceneUniforms(*program_, scene_, volume_, textures_.tables(), kFirstTransferUnit);
   program_->set("frame", static_cast<int>(kFrameUnit));
   program_->set("skipEmpty", options_.skip ? 1.0f : 0.0f);
   program_->set("termination", static_cast<float>(scene_.quality.termination));
   if (isAdaptive(scene_.quality))
-    program_->set("tolerance", static_cast<float>(kToleranceOfPart * *scene_.quality.maxError));
+    program_->set("tolerance", static_cast<float>((steep ? kToleranceInCell : kToleranceOfPart) *
+                                                  *scene_.quality.maxError));
 }
 
 void Raycaster::drawPixels(const PixelRect& pixels, double stepVoxels, RankStatistics& statistics) {
@@ -70,7 +84,7 @@ void Raycaster::drawPixels(const PixelRect& pixels, double stepVoxels, RankStati
   // The counters are 32 bits wide: bands of rows whose rays cannot have more samples than that.
   const VolumeGrid& grid = volume_.grid;
   const double planes = 2 * grid.boundingRadius() / (stepVoxels * grid.smallestSpacing()) + 2;
-  const double samples = planes * (isAdaptive(scene_.quality) ? kMostSamplesOfSegment : 1);
+  const double samples = planes * mostSamplesOfSegment_;
   const int rows = std::max(1, static_cast<int>(0x1p32 / samples / pixels.width()));
   for (int y = pixels.y0; y < pixels.y1; y += rows) {
     counters_->begin();

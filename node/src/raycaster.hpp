@@ -33,6 +33,7 @@ class Raycaster : public BrickRenderer {
   TransferTextures textures_;
   std::map<std::string, GlProgram> programs_;  ///< by their text
   GlProgram* program_ = nullptr;               ///< the scene's
+  double mostSamplesOfSegment_ = 1;            ///< that it takes
   VertexArray vertexArray_;
   FrameTarget target_{GL_RGBA32F};
   std::optional<SampleCounters> counters_;

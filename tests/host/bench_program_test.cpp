@@ -244,5 +244,43 @@ TEST(BenchAccuracy, WritesATableWhoseErrorsFallWithTheStep) {
   EXPECT_GT(finest, 0);
 }
 
+TEST(BenchMaxError, WritesARowForEachPicture) {
+  const TemporaryFolder folder;
+  const std::string volume = folder / "ramp_10x12x11_f32.raw";
+  ASSERT_EQ(
+      runBurin({"make-volume", "ramp", "--dims", "10,12,11", "--type", "f32", "-o", volume}, 1)
+          .exitCode,
+      0);
+  const auto run = runBurin({"bench", "max-error", volume, "--quick", "--size", "12",
+                             "--smallest-step", "0.25", "--out", folder / "out"},
+                            1);
+  ASSERT_EQ(run.exitCode, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("6 of 6 pictures keep what was asked"));
+  const auto lines = readCsv(folder / "out/max_error.csv");
+  ASSERT_EQ(lines.size(), 6);
+  std::map<std::string, int> functions;
+  for (const Line& line : lines) {
+    EXPECT_EQ(line.at("volume"), "ramp_10x12x11_f32");
+    ++functions[line.at("function")];
+    const double asked = std::stod(line.at("max_error_asked"));
+    EXPECT_LE(std::stod(line.at("error_max")), asked);
+    EXPECT_LE(std::stod(line.at("truth_change")), 0.1 / 512);
+    EXPECT_GT(std::stod(line.at("samples_visited")), 0);
+    const double step = std::stod(line.at("as_asked_step"));  // 0 if none
+    EXPECT_TRUE(step == 0 || (step >= 0.25 && step <= 4)) << step;
+    EXPECT_EQ(step == 0, std::stod(line.at("as_asked_samples")) == 0);
+    EXPECT_LE(std::stod(line.at("as_good_step")), step);  // what was asked takes no more
+  }
+  EXPECT_EQ(functions, (std::map<std::string, int>{{"smooth", 3}, {"spiky", 3}}));
+}
+
+TEST(BenchMaxError, VolumeThatIsNotThere) {
+  const TemporaryFolder folder;
+  const auto run =
+      runBurin({"bench", "max-error", folder / "none.nrrd", "--quick", "--out", folder / "out"}, 1);
+  EXPECT_EQ(run.exitCode, 3);
+  EXPECT_THAT(test::onlyLine(run.err), HasSubstr("none.nrrd"));
+}
+
 }  // namespace
 }  // namespace burin
