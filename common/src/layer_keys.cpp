@@ -15,12 +15,11 @@ Codec<TransferPoint> pointCodec() {
                                    number({.minimum = 0, .maximum = 1})))});
 }
 
-void checkPoints(const At& at, const TransferFunction& function) {
-  const auto& points = function.points;
-  const Node& list = *at.node.find("points");
-  const std::string path = json::childPath(at.path, "points");
+/// `at`: the list of the points.
+template <typename Point>
+void checkPoints(const At& at, const std::vector<Point>& points) {
   for (std::size_t i = 1; i < points.size(); ++i) {
-    const At point = At{list, path}.item(i);
+    const At point = at.item(i);
     if (points[i].value < points[i - 1].value) {
       point.fail("value {} is below {} of the point before; expected rising values",
                  points[i].value, points[i - 1].value);
@@ -31,9 +30,10 @@ void checkPoints(const At& at, const TransferFunction& function) {
   }
 }
 
+constexpr std::size_t kMostPoints = 4096;
+
 Codec<TransferFunction> transferFunctionCodec() {
   using F = TransferFunction;
-  constexpr std::size_t kMostPoints = 4096;
   return object<F>(
       {required(field("points",
                       "Points by rising value, linear between them; two at one value make a step",
@@ -41,7 +41,24 @@ Codec<TransferFunction> transferFunctionCodec() {
        field("opacity_unit_length",
              "World length that opacities refer to; default the smallest voxel spacing",
              &F::opacityUnitLength, number(kPositive))},
-      checkPoints);
+      [](const At& at, const F& function) {
+        checkPoints({*at.node.find("points"), json::childPath(at.path, "points")}, function.points);
+      });
+}
+
+Codec<std::vector<OpacityPoint>> lineOpacityCodec() {
+  using P = OpacityPoint;
+  auto codec = list(
+      object<P>({required(field("value", "Value in data units", &P::value, number(kAnyNumber))),
+                 required(field("opacity", "Opacity there, per opacity unit length", &P::opacity,
+                                number({.minimum = 0, .maximum = 1})))}),
+      1, kMostPoints);
+  codec.read = [read = codec.read](const At& at) {
+    std::vector<P> points = read(at);
+    checkPoints(at, points);
+    return points;
+  };
+  return codec;
 }
 
 Codec<StyleSettings> settingsCodec(const StyleSpec& spec) {
@@ -79,11 +96,19 @@ Codec<std::vector<StyleSettings>> stylesCodec() {
 
 Codec<Layer> layerCodec() {
   using L = Layer;
-  return object<L>({field("name", "Name for people", &L::name, text()),
-                    required(field("transfer_function", "Colour and opacity by value",
-                                   &L::transferFunction, transferFunctionCodec())),
-                    field("style", "Effects on this layer; an empty entry has its defaults",
-                          &L::styles, stylesCodec())});
+  return object<L>(
+      {field("name", "Name for people", &L::name, text()),
+       required(field("transfer_function", "Colour and opacity by value", &L::transferFunction,
+                      transferFunctionCodec())),
+       field<L, std::vector<OpacityPoint>>(
+           "line_opacity", "Opacity of the lines by value, in place of the transfer function's",
+           lineOpacityCodec(),
+           [](const L& l) {
+             return l.lineOpacity.empty() ? std::nullopt : std::optional{l.lineOpacity};
+           },
+           [](L& l, std::vector<OpacityPoint> points) { l.lineOpacity = std::move(points); }),
+       field("style", "Effects on this layer; an empty entry has its defaults", &L::styles,
+             stylesCodec())});
 }
 
 }  // namespace burin::scene_io

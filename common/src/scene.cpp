@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "burin/common/error.hpp"
 
@@ -83,6 +84,13 @@ const StyleSettings* Layer::style(std::string_view styleName) const {
   return found == styles.end() ? nullptr : &*found;
 }
 
+bool Layer::hasLines() const {
+  return std::any_of(styles.begin(), styles.end(), [](const StyleSettings& s) {
+    const StyleSpec* spec = findStyle(s.name);
+    return spec != nullptr && spec->passes == StylePasses::kLines;
+  });
+}
+
 void resolveScene(Scene& scene, const VolumeFacts& volume) {
   for (Layer& layer : scene.layers) {
     std::optional<double>& length = layer.transferFunction.opacityUnitLength;
@@ -137,6 +145,19 @@ int ghostLayersNeeded(const Scene& scene) {
   // Styles look around a segment's middle, or around those of its parts where these are halved.
   const int ofSegments = segmentGhostLayers(scene);
   return scene.quality.maxError ? needed + ofSegments : std::max(needed, ofSegments);
+}
+
+std::vector<TransferFunction> transferFunctions(const Scene& scene) {
+  std::vector<TransferFunction> functions;
+  for (const Layer& layer : scene.layers) {
+    functions.push_back(layer.transferFunction);
+    if (layer.lineOpacity.empty()) continue;
+    TransferFunction lines{{}, layer.transferFunction.opacityUnitLength};
+    for (const OpacityPoint& point : layer.lineOpacity)
+      lines.points.push_back({point.value, Colour{}, point.opacity});
+    functions.push_back(std::move(lines));
+  }
+  return functions;
 }
 
 bool gradientNeeded(const Scene& scene) {

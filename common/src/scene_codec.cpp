@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "burin/common/scene.hpp"
 
@@ -187,20 +188,32 @@ Codec<ImageSize> imageSize() {
           pair.schema};
 }
 
-Codec<Curve> curve(Range y) {
+namespace {
+
+std::pair<double, double> parts(const glm::dvec2& point) {
+  return {point.x, point.y};
+}
+std::pair<double, Colour> parts(const ColourPoint& point) {
+  return {point.x, point.colour};
+}
+
+/// [x, y] pairs with strictly growing x, as a list of points made of both.
+template <typename AnyCurve, typename Y>
+Codec<AnyCurve> curveOf(Codec<Y> y) {
+  using Point = typename decltype(AnyCurve::points)::value_type;
   Document pairSchema{{"type", "array"},
-                      {"prefixItems", {numberSchema(kAnyNumber), numberSchema(y)}},
+                      {"prefixItems", {numberSchema(kAnyNumber), y.schema}},
                       {"minItems", 2},
                       {"maxItems", 2}};
-  Codec<Curve> codec;
+  Codec<AnyCurve> codec;
   codec.schema = listSchema(1, kMostCurvePoints, std::move(pairSchema));
-  codec.read = [y](const At& at) {
+  codec.read = [read = y.read](const At& at) {
     checkList(at, 1, kMostCurvePoints);
-    Curve result;
+    AnyCurve result;
     for (std::size_t i = 0; i < at.node.items.size(); ++i) {
       const At pair = at.item(i);
       checkList(pair, 2, 2);
-      const glm::dvec2 point{readNumber(pair.item(0), kAnyNumber), readNumber(pair.item(1), y)};
+      const Point point{readNumber(pair.item(0), kAnyNumber), read(pair.item(1))};
       if (!result.points.empty() && point.x <= result.points.back().x) {
         pair.fail("{} does not grow over {} of the point before", point.x, result.points.back().x);
       }
@@ -208,14 +221,25 @@ Codec<Curve> curve(Range y) {
     }
     return result;
   };
-  codec.write = [](const Curve& value) {
+  codec.write = [write = y.write](const AnyCurve& value) {
     Document document = Document::array();
-    for (const glm::dvec2& p : value.points) {
-      document.push_back({json::numberDocument(p.x), json::numberDocument(p.y)});
+    for (const Point& point : value.points) {
+      const auto [x, second] = parts(point);
+      document.push_back({json::numberDocument(x), write(second)});
     }
     return document;
   };
   return codec;
+}
+
+}  // namespace
+
+Codec<Curve> curve(Range y) {
+  return curveOf<Curve>(number(y));
+}
+
+Codec<ColourCurve> colourCurve() {
+  return curveOf<ColourCurve>(colour());
 }
 
 Codec<ParameterValue> parameter(const ParameterSpec& spec) {
@@ -224,6 +248,8 @@ Codec<ParameterValue> parameter(const ParameterSpec& spec) {
   if (std::holds_alternative<Colour>(spec.defaultValue)) return asParameter(colour());
   if (std::holds_alternative<std::string>(spec.defaultValue))
     return asParameter(word(spec.choices));
+  if (std::holds_alternative<ColourCurve>(spec.defaultValue)) return asParameter(colourCurve());
+  if (std::holds_alternative<glm::dvec3>(spec.defaultValue)) return asParameter(direction());
   return asParameter(curve(range));
 }
 

@@ -57,6 +57,8 @@ Codec<glm::ivec3> wholeNumbers3(Range component);
 Codec<ImageSize> imageSize();
 /// [x, y] pairs with strictly growing x.
 Codec<Curve> curve(Range y);
+/// [x, colour] pairs with strictly growing x.
+Codec<ColourCurve> colourCurve();
 /// A style parameter, by the kind of its default.
 Codec<ParameterValue> parameter(const ParameterSpec& spec);
 

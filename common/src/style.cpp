@@ -35,6 +35,32 @@ std::string shown(const Curve& curve) {
   return text + "]";
 }
 
+std::string shown(const ColourCurve& curve) {
+  std::string text = "[";
+  for (const ColourPoint& point : curve.points) {
+    text += fmt::format("{}[{}, {}]", text.size() > 1 ? ", " : "", point.x, point.colour.hex());
+  }
+  return text + "]";
+}
+
+/// The points before and after x, and how far x is on the way; the end point twice outside.
+template <typename Point>
+struct Between {
+  const Point& before;
+  const Point& after;
+  double t;
+};
+template <typename Point>
+Between<Point> between(const std::vector<Point>& points, double x) {
+  BURIN_CHECK(!points.empty());
+  const auto above = std::upper_bound(points.begin(), points.end(), x,
+                                      [](double v, const Point& p) { return v < p.x; });
+  if (above == points.begin()) return {points.front(), points.front(), 0};
+  if (above == points.end()) return {points.back(), points.back(), 0};
+  const Point& before = *(above - 1);
+  return {before, *above, (x - before.x) / (above->x - before.x)};
+}
+
 /// What may stand after the parameter's name, and its default.
 std::string valueHelp(const ParameterSpec& spec) {
   const std::string_view space = spec.unit.empty() ? "" : " ";
@@ -48,6 +74,12 @@ std::string valueHelp(const ParameterSpec& spec) {
   if (const auto* word = std::get_if<std::string>(&spec.defaultValue)) {
     return fmt::format("{}, default {}", fmt::join(spec.choices, " | "), *word);
   }
+  if (const auto* colours = std::get_if<ColourCurve>(&spec.defaultValue)) {
+    return fmt::format("curve of colours, default {}", shown(*colours));
+  }
+  if (const auto* direction = std::get_if<glm::dvec3>(&spec.defaultValue)) {
+    return fmt::format("direction, default [{}, {}, {}]", direction->x, direction->y, direction->z);
+  }
   return fmt::format("curve with values {} … {}{}{}, default {}", spec.minimum, spec.maximum, space,
                      spec.unit, shown(std::get<Curve>(spec.defaultValue)));
 }
@@ -55,14 +87,13 @@ std::string valueHelp(const ParameterSpec& spec) {
 }  // namespace
 
 double Curve::at(double x) const {
-  BURIN_CHECK(!points.empty());
-  const auto above = std::upper_bound(points.begin(), points.end(), x,
-                                      [](double v, const glm::dvec2& p) { return v < p.x; });
-  if (above == points.begin()) return points.front().y;
-  if (above == points.end()) return points.back().y;
-  const glm::dvec2 a = *(above - 1);
-  const double t = (x - a.x) / (above->x - a.x);
-  return (1 - t) * a.y + t * above->y;
+  const auto [before, after, t] = between(points, x);
+  return (1 - t) * before.y + t * after.y;
+}
+
+glm::dvec3 ColourCurve::at(double x) const {
+  const auto [before, after, t] = between(points, x);
+  return (1 - t) * before.colour.linear() + t * after.colour.linear();
 }
 
 const StyleSpec* findStyle(std::string_view name) {
@@ -83,6 +114,13 @@ const std::string& StyleSettings::word(std::string_view parameter) const {
 }
 const Curve& StyleSettings::curve(std::string_view parameter) const {
   return valueAs<Curve>(*this, parameter);
+}
+
+const ColourCurve& StyleSettings::colourCurve(std::string_view parameter) const {
+  return valueAs<ColourCurve>(*this, parameter);
+}
+const glm::dvec3& StyleSettings::direction(std::string_view parameter) const {
+  return valueAs<glm::dvec3>(*this, parameter);
 }
 
 StyleSettings defaultSettings(const StyleSpec& spec) {

@@ -6,6 +6,28 @@ namespace {
 
 using namespace std::string_literals;
 
+/// A plain number.
+ParameterSpec number(std::string_view name, std::string_view help, double value, double minimum,
+                     double maximum) {
+  return {
+      .name = name, .help = help, .defaultValue = value, .minimum = minimum, .maximum = maximum};
+}
+
+/// The position that a style with needsPosition depends on; its own parameters follow.
+std::vector<ParameterSpec> withPosition(std::vector<ParameterSpec> parameters) {
+  std::vector<ParameterSpec> all{
+      {.name = "along",
+       .help = "position 0 … 1: depth in the view through the bounding sphere, or along the axis",
+       .defaultValue = "view"s,
+       .choices = {"view", "axis"}},
+      {.name = "axis",
+       .help = "axis: world direction, 0 at the box's end it comes from, 1 at the other",
+       .defaultValue = glm::dvec3{0, 0, 1}},
+  };
+  all.insert(all.end(), parameters.begin(), parameters.end());
+  return all;
+}
+
 StyleSpec gradientStyle() {
   return {.name = "gradient",
           .help = "how the layer's gradients become directions (settings of the styles below)",
@@ -43,6 +65,43 @@ StyleSpec surfaceStyle() {
           }};
 }
 
+StyleSpec boundaryStyle() {
+  return {.name = "boundary",
+          .help = "extinction times constant + scale * magnitude ^ exponent: enhances boundaries",
+          .needsGradient = true,
+          .ghostLayers = 1,
+          .parameters = {
+              number("constant", "factor on extinction where nothing changes", 0.1, 0, 4),
+              number("scale", "what the largest gradient magnitude adds to it", 2, 0, 20),
+              number("exponent", "of the gradient magnitude; large keeps only the strongest", 1.5,
+                     0.1, 8),
+          }};
+}
+
+StyleSpec silhouetteStyle() {
+  return {.name = "silhouette",
+          .help = "extinction times constant + scale * edge measure ^ exponent: denser outlines",
+          .needsGradient = true,
+          .ghostLayers = 1,
+          .parameters = {
+              number("constant", "factor on extinction where a surface faces the eye", 0.01, 0, 4),
+              number("scale", "what a surface seen sideways adds to it", 1, 0, 20),
+              number("exponent", "of the edge measure; large is thin", 4, 0.1, 8),
+          }};
+}
+
+StyleSpec fadeStyle() {
+  return {.name = "fade",
+          .help = "opacity of colour and lines by position",
+          .needsPosition = true,
+          .passes = StylePasses::kBoth,
+          .parameters = withPosition({
+              {.name = "opacity",
+               .help = "factor on extinction and on lines over the position",
+               .defaultValue = Curve{{{0.2, 0}, {0.6, 1}}}},
+          })};
+}
+
 StyleSpec lightStyle() {
   return {.name = "light",
           .help = "Phong's ambient and diffuse light",
@@ -78,9 +137,10 @@ StyleSpec toneStyle() {
           .ghostLayers = 1,
           .parameters = {
               {.name = "mode",
-               .help = "a colour map over the angle to the first light, or Gooch's shading",
+               .help = "map: two colours by the angle to the first light; colors: a curve of them; "
+                       "Gooch's shading; Ebert and Rheingans' shading by all lights",
                .defaultValue = "map"s,
-               .choices = {"map", "gooch"}},
+               .choices = {"map", "colors", "gooch", "ebert"}},
               share("strength", "how much of the tone is mixed in", 1),
               {.name = "warm",
                .help = "map: factor on colour where lit",
@@ -94,18 +154,66 @@ StyleSpec toneStyle() {
                .minimum = 0.01,
                .maximum = 1,
                .unit = "of the cosine"},
-              share("yellow", "gooch: yellow in the warm tone", 0.4),
-              share("blue", "gooch: blue in the cool tone", 0.4),
-              share("alpha", "gooch: the colour's own share of the cool tone", 0.2),
-              share("beta", "gooch: the colour's own share of the warm tone", 0.6),
+              {.name = "colors",
+               .help = "colors: factor on colour over the cosine to the light, -1 … 1",
+               .defaultValue = ColourCurve{{{-1, {0x3a, 0x50, 0x9e}},
+                                            {0, {0xa8, 0xa4, 0xb8}},
+                                            {1, {0xff, 0xe0, 0xb0}}}}},
+              share("yellow", "gooch, ebert: yellow in the warm tone", 0.4),
+              share("blue", "gooch, ebert: blue in the cool tone", 0.4),
+              share("alpha", "gooch, ebert: the colour's own share of the cool tone", 0.2),
+              share("beta", "gooch, ebert: the colour's own share of the warm tone", 0.6),
+              share("ambient", "ebert: light from everywhere", 0.05),
+              share("diffuse", "ebert: light by the angle to each light", 0.1),
           }};
+}
+
+StyleSpec toonStyle() {
+  return {.name = "toon",
+          .help = "a few flat tones, the colour itself the darkest, white the lightest",
+          .needsGradient = true,
+          .ghostLayers = 1,
+          .parameters = {
+              number("tones", "how many tones", 4, 2, 16),
+              number("strength", "how much of the tones is mixed in", 1, 0, 1),
+              {.name = "softness",
+               .help = "width of the change between two tones",
+               .defaultValue = 0.1,
+               .minimum = 0.01,
+               .maximum = 1,
+               .unit = "of a tone"},
+          }};
+}
+
+StyleSpec depthStyle() {
+  return {.name = "depth",
+          .help = "colour by position: warm and full near, cool and pale far",
+          .needsPosition = true,
+          .parameters = withPosition({
+              {.name = "mode",
+               .help = "curves of a factor and a blend, or distance colouring: a blend of "
+                       "strength * position ^ exponent",
+               .defaultValue = "curves"s,
+               .choices = {"curves", "distance"}},
+              {.name = "factor",
+               .help = "curves: factor on colour over the position",
+               .defaultValue = ColourCurve{{{0.2, {0xff, 0xf0, 0xdc}}, {0.8, {0xc8, 0xd8, 0xf0}}}}},
+              {.name = "blend",
+               .help = "curves: share of the blend's colour over the position",
+               .defaultValue = Curve{{{0.3, 0}, {0.9, 0.7}}}},
+              {.name = "color",
+               .help = "colour that is blended in",
+               .defaultValue = Colour{0xb4, 0xc8, 0xe0}},
+              number("strength", "distance: share of that colour at the far end", 0.8, 0, 1),
+              number("exponent", "distance: of the position; large begins late", 1.5, 0.1, 8),
+          })};
 }
 
 StyleSpec edgesStyle() {
   return {.name = "edges",
           .help = "lines where a surface turns away from the eye",
           .needsGradient = true,
-          .drawsLines = true,
+          .passes = StylePasses::kLines,
           .ghostLayers = 1,
           .parameters = {
               {.name = "strength",
@@ -131,7 +239,7 @@ StyleSpec specularStyle() {
   return {.name = "specular",
           .help = "highlights in the lights' colours",
           .needsGradient = true,
-          .drawsLines = true,
+          .passes = StylePasses::kLines,
           .ghostLayers = 1,
           .parameters = {
               {.name = "strength",
@@ -147,11 +255,26 @@ StyleSpec specularStyle() {
           }};
 }
 
+StyleSpec lineSurfaceStyle() {
+  return {.name = "line_surface",
+          .help = "lines by gradient magnitude: only at strong surfaces",
+          .needsGradient = true,
+          .passes = StylePasses::kLines,
+          .ghostLayers = 1,
+          .parameters = {
+              {.name = "opacity",
+               .help = "factor on the amount of lines over gradient magnitude 0 … 1",
+               .defaultValue = Curve{{{0.1, 0}, {0.3, 1}}}},
+          }};
+}
+
 }  // namespace
 
 std::span<const StyleSpec> styleTable() {
-  static const std::vector<StyleSpec> table{gradientStyle(), surfaceStyle(), lightStyle(),
-                                            toneStyle(),     edgesStyle(),   specularStyle()};
+  static const std::vector<StyleSpec> table{gradientStyle(),   surfaceStyle(),  boundaryStyle(),
+                                            silhouetteStyle(), fadeStyle(),     lightStyle(),
+                                            toneStyle(),       toonStyle(),     depthStyle(),
+                                            edgesStyle(),      specularStyle(), lineSurfaceStyle()};
   return table;
 }
 

@@ -46,6 +46,11 @@ float meanExtinction(vec4 scale, EndClass a, EndClass b) {
   return wide ? max(integral / span, 0.0) : 0.5 * (a.extinction + b.extinction);
 }
 
+// The middle value's colour.
+vec3 middleColour(sampler1DArray tables, vec4 scale, EndClass a, EndClass b) {
+  return texture(tables, vec2((0.5 * (a.x + b.x) + 0.5) * scale.w, 0.0)).rgb;
+}
+
 // Colour of the same: of the middle value where the ends are less than a bin apart, the mean
 // weighted by extinction, whose differences of floats need some distance, from two bins on.
 // first, end: the table's first and last entries, which go on to either side.
@@ -53,7 +58,7 @@ vec3 meanColour(sampler1DArray tables, vec4 scale, vec4 first, vec4 end, EndClas
                 EndClass b) {
   float low = min(a.x, b.x);
   float high = max(a.x, b.x);
-  vec3 middle = texture(tables, vec2((0.5 * (low + high) + 0.5) * scale.w, 0.0)).rgb;
+  vec3 middle = middleColour(tables, scale, a, b);
   vec4 sum = a.x < b.x ? b.emission - a.emission : a.emission - b.emission;
   sum += max(-low, 0.0) * first.a * vec4(first.rgb, 1.0);
   sum += max(high - scale.z, 0.0) * end.a * vec4(end.rgb, 1.0);
@@ -61,7 +66,8 @@ vec3 meanColour(sampler1DArray tables, vec4 scale, vec4 first, vec4 end, EndClas
   return mix(middle, max(sum.rgb, 0.0) * (1.0 / max(sum.a, 1e-30)), wide);
 }
 
-// Where two segments meet: the volume's value there and its class in every layer.
+// Where two segments meet: the volume's value there and its class by every transfer function, those of
+// the layers' lines included (LAYERS).
 struct Side {
   float value;
   float valid;

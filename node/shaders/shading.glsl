@@ -14,6 +14,7 @@ struct Shading {
   float extinction;   // pass I
   vec3 lineColour;    // pass II: sum of weight * colour
   float lineWeight;   // pass II: sum of weights
+  float lineFactor;   // pass II: on the amount of lines
 };
 
 uniform vec3 eyeward, eyewardX, eyewardY;  // direction to the eye at the image centre; per pixel
@@ -48,13 +49,19 @@ Surface surfaceOf(vec3 gradient, float magnitude, float noiseFloor, int orientat
   return Surface(normal, m, smoothstep(noiseFloor, 2.0 * noiseFloor, m), toEye);
 }
 
+// e = (1 - |n.v|) q(m): nothing where there is no direction.
+float edgeMeasure(Surface g) {
+  return max((1.0 - abs(dot(g.normal, g.toEye))) * g.confidence, 0.0);
+}
+
 // Pass II: what lines replace of what they lie on, and their colour.
-float amountOfLines(Shading s) { return clamp(s.lineWeight, 0.0, 1.0); }
+float amountOfLines(Shading s) { return clamp(s.lineWeight, 0.0, 1.0) * s.lineFactor; }
 vec3 colourOfLines(Shading s) {
   return s.lineWeight > 0.0 ? s.lineColour / s.lineWeight : vec3(0.0);
 }
 
-// Pass II over pass I: lines replace colour. `classified` is the extinction before any style.
+// Pass II over pass I: lines replace colour. `classified` is the extinction before any style, of the
+// transfer function or of the lines' own opacities.
 void drawLines(inout Shading s, float classified) {
   if (s.lineWeight <= 0.0) return;
   float amount = amountOfLines(s);

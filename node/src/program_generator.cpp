@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "burin/common/error.hpp"
+#include "curve_code.hpp"
 
 namespace burin::node {
 namespace {
@@ -16,6 +17,8 @@ std::string typeOf(const ParameterSpec& parameter) {
     std::string operator()(const Colour&) const { return "vec3"; }
     std::string operator()(const std::string&) const { return "int"; }
     std::string operator()(const Curve&) const { return "int"; }  // number of the curve
+    std::string operator()(const ColourCurve&) const { return "int"; }
+    std::string operator()(const glm::dvec3&) const { return ""; }  // read by the CPU alone
   } name;
   return std::visit(name, parameter.defaultValue);
 }
@@ -25,11 +28,18 @@ bool usedAnywhere(const Scene& scene, std::string_view style) {
                              [&](const Layer& layer) { return layer.style(style) != nullptr; });
 }
 
+bool positionNeeded(const Scene& scene) {
+  return std::ranges::any_of(styleTable(), [&](const StyleSpec& style) {
+    return style.needsPosition && usedAnywhere(scene, style.name);
+  });
+}
+
 /// `struct tone_parameters {…};` and the constants of its words.
 std::string declareStyle(const StyleSpec& style) {
   std::string text = fmt::format("struct {}_parameters {{\n", style.name);
   std::string words;
   for (const ParameterSpec& parameter : style.parameters) {
+    if (typeOf(parameter).empty()) continue;
     text += fmt::format("  {} {};\n", typeOf(parameter), parameter.name);
     for (std::size_t i = 0; i < parameter.choices.size(); ++i)
       words += fmt::format("const int {}_{}_{} = {};\n", style.name, parameter.name,
@@ -37,39 +47,6 @@ std::string declareStyle(const StyleSpec& style) {
   }
   return text + "};\n" + words;
 }
-
-/// Numbers the curves of a scene and writes the function that evaluates them: a sum of clamped
-/// ramps, exact at any resolution. curve[0] is (start value, -, -), the others (x, length, slope).
-class CurveSet {
- public:
-  int add(const std::string& uniform, const Curve& curve) {
-    const int number = count_++;
-    const std::string kept = "kept_" + uniform;
-    declarations_ +=
-        fmt::format("uniform vec3 {0}[{2}];\nvec3 {1}[{2}];\n", uniform, kept, curve.points.size());
-    prepare_ += fmt::format("  for (int i = 0; i < {0}; ++i) {1}[i] = one * {2}[i];\n",
-                            curve.points.size(), kept, uniform);
-    cases_ += fmt::format("  if (number == {}) {{\n    y = {}[0].x;\n", number, kept);
-    for (std::size_t i = 1; i < curve.points.size(); ++i)
-      cases_ +=
-          fmt::format("    y += {0}[{1}].z * clamp(x - {0}[{1}].x, 0.0, {0}[{1}].y);\n", kept, i);
-    cases_ += "  }\n";
-    return number;
-  }
-  /// Copies them before the loop.
-  const std::string& prepare() const { return prepare_; }
-  std::string text() const {
-    if (count_ == 0) return "";
-    return declarations_ + "float evaluateCurve(int number, float x) {\n  float y = 0.0;\n" +
-           cases_ + "  return y;\n}\n";
-  }
-
- private:
-  int count_ = 0;
-  std::string declarations_;
-  std::string prepare_;
-  std::string cases_;
-};
 
 /// The statements that fill `<style>_parameters p` for one layer, the uniforms they read, and what
 /// copies those before the loop.
@@ -90,16 +67,18 @@ std::string keepUniform(std::string_view type, const std::string& uniform,
 }
 
 ParameterCode parameterCode(const StyleSettings& settings, const StyleSpec& style,
-                            std::size_t layer, CurveSet& curves) {
+                            std::size_t layer, CurveCode& curves) {
   ParameterCode code;
   for (std::size_t i = 0; i < style.parameters.size(); ++i) {
     const ParameterSpec& parameter = style.parameters[i];
+    if (typeOf(parameter).empty()) continue;
     std::string value = parameterUniform(layer, style.name, parameter.name);
     if (const auto* word = std::get_if<std::string>(&settings.values[i])) {
       value = fmt::format("{}_{}_{}", style.name, parameter.name, *word);
     } else if (const auto* curve = std::get_if<Curve>(&settings.values[i])) {
-      value =
-          fmt::format("{}", curves.add(curveUniform(layer, style.name, parameter.name), *curve));
+      value = std::to_string(curves.add(curveUniform(layer, style.name, parameter.name), *curve));
+    } else if (const auto* colours = std::get_if<ColourCurve>(&settings.values[i])) {
+      value = std::to_string(curves.add(curveUniform(layer, style.name, parameter.name), *colours));
     } else {
       value = keepUniform(typeOf(parameter), value, code.uniforms, code.prepare);
     }
@@ -126,8 +105,26 @@ class LayerCode {
   std::string text() const { return curves_.text() + styleCode() + uniforms_ + functions(); }
 
  private:
+  /// Classes are numbered as transferFunctions() are: one for the layer, one for its lines if these
+  /// have opacities of their own.
   void add(std::size_t i) {
     const Layer& layer = scene_.layers[i];
+    const bool ownLines = !layer.lineOpacity.empty();
+    const std::size_t number = addClass();
+    const std::size_t lines = ownLines ? addClass() : number;
+    const std::string shown = ownLines ? fmt::format(" + extinction{}", lines) : "";
+    body_ += fmt::format(
+        "  if (extinction{0}{2} > 0.0) {{\n"
+        "    Shading s = Shading({1}, extinction{0}, vec3(0.0), 0.0, 1.0);\n",
+        number, colourOf(number, ownLines), shown);
+    if (gradientNeededBy(layer)) addSurface(i, layer);
+    addStyles(i, layer);
+    addResult(lines);
+    body_ += "  }\n";
+  }
+
+  std::size_t addClass() {
+    const std::size_t i = classes_++;
     uniforms_ += fmt::format("uniform sampler1DArray {0};\nuniform vec4 {1};\nvec4 scale{2};\n",
                              transferUniform(i), transferScaleUniform(i), i);
     prepare_ += fmt::format("  scale{} = one * {};\n", i, transferScaleUniform(i));
@@ -138,14 +135,7 @@ class LayerCode {
       addMiddleClass(i);
     }
     total_ += fmt::format("{}extinction{}", i == 0 ? "" : " + ", i);
-    body_ += fmt::format(
-        "  if (extinction{0} > 0.0) {{\n"
-        "    Shading s = Shading({1}, extinction{0}, vec3(0.0), 0.0);\n",
-        i, colourOf(i));
-    if (gradientNeededBy(layer)) addSurface(i, layer);
-    addStyles(i, layer);
-    addResult(i);
-    body_ += "  }\n";
+    return i;
   }
 
   /// The class of the middle's value.
@@ -177,8 +167,13 @@ class LayerCode {
         i, i == 0 ? "" : " + ");
   }
 
-  std::string colourOf(std::size_t i) const {
+  /// Of a segment. A mean weighted by the layer's extinction is nothing where only lines show, and
+  /// little but rounding beside it.
+  std::string colourOf(std::size_t i, bool ownLines) const {
     if (!scene_.quality.preintegrated) return fmt::format("class{}.rgb", i);
+    if (ownLines)
+      return fmt::format("middleColour({1}, scale{0}, front.layers[{0}], back.layers[{0}])", i,
+                         transferUniform(i));
     return fmt::format(
         "meanColour({1}, scale{0}, first{0}, end{0}, front.layers[{0}], back.layers[{0}])", i,
         transferUniform(i));
@@ -206,11 +201,21 @@ class LayerCode {
       const ParameterCode code = parameterCode(settings, style, i, curves_);
       uniforms_ += code.uniforms;
       prepare_ += code.prepare;
-      body_ += fmt::format("    {{\n    {0}_parameters p;\n{1}    apply_{0}(s, {2}p);\n    }}\n",
-                           style.name, code.statements, style.needsGradient ? "g, " : "");
+      const std::string position = style.needsPosition ? positionOf(i, style) + ", " : "";
+      body_ += fmt::format("    {{\n    {0}_parameters p;\n{1}    apply_{0}(s, {2}{3}p);\n    }}\n",
+                           style.name, code.statements, style.needsGradient ? "g, " : "", position);
     }
   }
 
+  /// The sample's position along the style's direction.
+  std::string positionOf(std::size_t layer, const StyleSpec& style) {
+    const std::string uniform = placeUniform(layer, style.name);
+    uniforms_ += fmt::format("uniform vec4 {0};\nvec4 kept_{0};\n", uniform);
+    prepare_ += fmt::format("  kept_{0} = one * overCoordinate({0});\n", uniform);
+    return fmt::format("positionAt(kept_{}, coordinate)", uniform);
+  }
+
+  /// `i`: class of the lines.
   void addResult(std::size_t i) {
     if (!pass_) {
       body_ += fmt::format(
@@ -230,6 +235,7 @@ class LayerCode {
 
   std::string styleCode() const {
     std::string text;
+    if (positionNeeded(scene_)) text += "#include \"position.glsl\"\n";
     for (const StyleSpec& style : styleTable()) {
       if (!style.hasSnippet || !usedAnywhere(scene_, style.name)) continue;
       text += declareStyle(style) + fmt::format("#include \"styles/{}.glsl\"\n", style.name);
@@ -271,7 +277,8 @@ class LayerCode {
   const Scene& scene_;
   std::optional<LayerPass> pass_;
   bool gradient_;
-  CurveSet curves_;
+  CurveCode curves_;
+  std::size_t classes_ = 0;
   std::string uniforms_, prepare_, ends_, classify_, beyond_, total_, body_;
 };
 
@@ -284,17 +291,20 @@ std::string parameterUniform(std::size_t layer, std::string_view style,
 std::string curveUniform(std::size_t layer, std::string_view style, std::string_view parameter) {
   return parameterUniform(layer, style, parameter) + "_curve";
 }
-std::string transferUniform(std::size_t layer) {
-  return fmt::format("transfer{}", layer);
+std::string placeUniform(std::size_t layer, std::string_view style) {
+  return parameterUniform(layer, style, "place");
 }
-std::string extinctionUniform(std::size_t layer) {
-  return fmt::format("extinctions{}", layer);
+std::string transferUniform(std::size_t function) {
+  return fmt::format("transfer{}", function);
 }
-std::string transferScaleUniform(std::size_t layer) {
-  return fmt::format("transferScale{}", layer);
+std::string extinctionUniform(std::size_t function) {
+  return fmt::format("extinctions{}", function);
 }
-std::string visibleBinsUniform(std::size_t layer) {
-  return fmt::format("visibleBins{}", layer);
+std::string transferScaleUniform(std::size_t function) {
+  return fmt::format("transferScale{}", function);
+}
+std::string visibleBinsUniform(std::size_t function) {
+  return fmt::format("visibleBins{}", function);
 }
 std::string magnitudeUniform(std::size_t layer) {
   return fmt::format("magnitude{}", layer);
@@ -318,7 +328,8 @@ std::string programHead(const Scene& scene, const ProgramOptions& options,
   if (isAdaptive(scene.quality)) text += "#define ADAPTIVE\n";
   if (isAdaptive(scene.quality) && options.isSteep) text += "#define STEEP\n";
   if (scene.quality.preintegrated)
-    text += fmt::format("#define PREINTEGRATED\n#define LAYERS {}\n", scene.layers.size());
+    text +=
+        fmt::format("#define PREINTEGRATED\n#define LAYERS {}\n", transferFunctions(scene).size());
   for (const char* file : {"lattice.glsl", "ownership.glsl", "opacity.glsl", "volume.glsl",
                            "skip.glsl", "shading.glsl"})
     text += fmt::format("#include \"{}\"\n", file);

@@ -47,11 +47,15 @@ ShaderSource fullscreenVertexSource();
 /// Names of the uniforms that the generated program declares, in one place for both sides.
 std::string parameterUniform(std::size_t layer, std::string_view style, std::string_view parameter);
 std::string curveUniform(std::size_t layer, std::string_view style, std::string_view parameter);
-std::string transferUniform(std::size_t layer);       ///< sampler1DArray
-std::string extinctionUniform(std::size_t layer);     ///< sampler1D: TransferRows::extinction
-std::string transferScaleUniform(std::size_t layer);  ///< vec4: first value, bins per unit,
-                                                      ///< bins, 1 / texels
-std::string visibleBinsUniform(std::size_t layer);    ///< vec2: nothing shows outside of it
-std::string magnitudeUniform(std::size_t layer);      ///< m = |gradient| * this
+/// vec4: the position that the style depends on is dot(xyz, p) + w, p in centred index space.
+std::string placeUniform(std::size_t layer, std::string_view style);
+std::string magnitudeUniform(std::size_t layer);  ///< m = |gradient| * this
+
+/// Those of a transfer function, by its number in transferFunctions().
+std::string transferUniform(std::size_t function);       ///< sampler1DArray
+std::string extinctionUniform(std::size_t function);     ///< sampler1D: TransferRows::extinction
+std::string transferScaleUniform(std::size_t function);  ///< vec4: first value, bins per unit,
+                                                         ///< bins, 1 / texels
+std::string visibleBinsUniform(std::size_t function);    ///< vec2: nothing shows outside of it
 
 }  // namespace burin::node

@@ -4,6 +4,7 @@
 
 #include "burin/common/sample_lattice.hpp"
 #include "clip_planes.hpp"
+#include "curve_code.hpp"
 #include "program_generator.hpp"
 #include "transfer_textures.hpp"
 
@@ -27,6 +28,40 @@ std::vector<glm::vec3> curvePieces(const Curve& curve) {
   return pieces;
 }
 
+/// The elements of rampsUniform().
+std::vector<glm::vec3> colourRamps(const ColourCurve& curve) {
+  std::vector<glm::vec3> ramps{glm::vec3{0}};
+  for (std::size_t i = 1; i < curve.points.size(); ++i) {
+    const double from = curve.points[i - 1].x;
+    const double length = curve.points[i].x - from;
+    ramps.emplace_back(glm::vec3{glm::dvec3{from, length, 1 / length}});
+  }
+  return ramps;
+}
+
+/// The first colour, then each one's difference to the one before.
+std::vector<glm::vec3> colourSteps(const ColourCurve& curve) {
+  std::vector<glm::vec3> steps;
+  glm::dvec3 before{0};
+  for (const ColourPoint& point : curve.points) {
+    steps.push_back(toFloat(point.colour.linear() - before));
+    before = point.colour.linear();
+  }
+  return steps;
+}
+
+/// placeUniform() of a style: view depth from one side of the bounding sphere to the other, or the
+/// part of the box's extent along an axis.
+glm::vec4 placeOf(const StyleSettings& style, const Camera& camera, const VolumeGrid& grid) {
+  const bool byView = style.word("along") == "view";
+  const glm::dvec3 world = byView ? camera.forward : glm::normalize(style.direction("axis"));
+  const glm::dvec3 perVoxel = glm::transpose(grid.indexToWorld()) * world;
+  const Box box = grid.boxIndex();
+  const double extent =
+      byView ? 2 * grid.boundingRadius() : glm::dot(glm::abs(perVoxel), box.hi - box.lo);
+  return glm::vec4{glm::dvec4{perVoxel / extent, 0.5}};
+}
+
 /// World gradient magnitude that counts as 1 in a program before a layer's own scale.
 double gradientUnit(const GradientScales& gradients) {
   if (gradients.percentile > 0) return gradients.percentile;
@@ -43,6 +78,12 @@ void setTransferUniforms(const GlProgram& program, const TransferTable& table,
       transferScaleUniform(number),
       glm::vec4{glm::dvec4{scale.stored(table.first),
                            bins * scale.range / (table.last - table.first), bins, 1 / (bins + 2)}});
+}
+
+void setColourCurve(const GlProgram& program, const std::string& uniform,
+                    const ColourCurve& curve) {
+  program.set(uniform, colourSteps(curve));
+  program.set(rampsUniform(uniform), colourRamps(curve));
 }
 
 void setStyleUniforms(const GlProgram& program, const Layer& layer, const GradientScales& gradients,
@@ -69,6 +110,8 @@ void setStyleUniforms(const GlProgram& program, const Layer& layer, const Gradie
         program.set(name, toFloat(colour->linear()));
       else if (const auto* curve = std::get_if<Curve>(&settings.values[i]))
         program.set(curveUniform(number, style.name, parameter), curvePieces(*curve));
+      else if (const auto* colours = std::get_if<ColourCurve>(&settings.values[i]))
+        setColourCurve(program, curveUniform(number, style.name, parameter), *colours);
     }
   }
 }
@@ -96,14 +139,15 @@ void setSceneUniforms(const GlProgram& program, const Scene& scene, const Progra
   for (const Light& light : scene.lights)
     lightColours.push_back(toFloat(light.colour.linear() * light.intensity));
   program.set("lightColours", lightColours);
-  for (std::size_t i = 0; i < scene.layers.size(); ++i) {
+  for (std::size_t i = 0; i < tables.size(); ++i)
     setTransferUniforms(program, tables[i], volume.scale, i,
-                        firstTransferUnit + kUnitsPerLayer * static_cast<GLuint>(i));
+                        firstTransferUnit + kUnitsPerFunction * static_cast<GLuint>(i));
+  for (std::size_t i = 0; i < scene.layers.size(); ++i)
     setStyleUniforms(program, scene.layers[i], volume.gradients, i);
-  }
 }
 
-void setViewUniforms(const GlProgram& program, const Scene& scene, const Camera& camera) {
+void setViewUniforms(const GlProgram& program, const Scene& scene, const Camera& camera,
+                     const VolumeGrid& grid) {
   const double slope = camera.projection == Projection::kPerspective ? camera.pixelSize : 0.0;
   program.set("imageCentre", glm::vec2{0.5f * static_cast<float>(camera.image.width),
                                        0.5f * static_cast<float>(camera.image.height)});
@@ -115,6 +159,10 @@ void setViewUniforms(const GlProgram& program, const Scene& scene, const Camera&
   for (const Light& light : scene.lights)
     lights.push_back(toFloat(lightDirectionWorld(light, camera)));
   program.set("lightDirections", lights);
+  for (std::size_t i = 0; i < scene.layers.size(); ++i)
+    for (const StyleSettings& style : scene.layers[i].styles)
+      if (findStyle(style.name)->needsPosition)
+        program.set(placeUniform(i, style.name), placeOf(style, camera, grid));
 }
 
 void setStepUniforms(const GlProgram& program, const Camera& camera, const VolumeGrid& grid,

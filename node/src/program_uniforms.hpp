@@ -33,11 +33,12 @@ inline constexpr GLuint kFirstTransferUnit = 3;
 // The uniforms of lattice.glsl, volume.glsl, skip.glsl, shading.glsl, ownership.glsl and of the
 // generated layers, which all techniques share. Setting one that a program lacks does nothing.
 
-/// What follows from the scene alone. `tables`: of the scene's layers, whose textures are bound as
-/// TransferTextures::bind(firstTransferUnit) does.
+/// What follows from the scene alone. `tables`: of the scene's transferFunctions(), whose textures
+/// are bound as TransferTextures::bind(firstTransferUnit) does.
 void setSceneUniforms(const GlProgram& program, const Scene& scene, const ProgramVolume& volume,
                       std::span<const TransferTable> tables, GLuint firstTransferUnit);
-void setViewUniforms(const GlProgram& program, const Scene& scene, const Camera& camera);
+void setViewUniforms(const GlProgram& program, const Scene& scene, const Camera& camera,
+                     const VolumeGrid& grid);
 void setStepUniforms(const GlProgram& program, const Camera& camera, const VolumeGrid& grid,
                      double stepVoxels);
 void setBrickUniforms(const GlProgram& program, const VolumeGrid& grid, const Brick& brick);

@@ -25,12 +25,12 @@ constexpr double kSteep = 6;
 constexpr double kSteepBelow = 1.0 / 256;  ///< max_error below which less is steep
 constexpr double kSteepThere = 1;
 
-/// Whether some layer may show much of what lies between two values that are close.
+/// Whether some transfer function may show much of what lies between two values that are close.
 bool isSteep(const Scene& scene, const ProgramVolume& volume) {
   const double steep = scene.quality.maxError.value_or(1) < kSteepBelow ? kSteepThere : kSteep;
-  for (const Layer& layer : scene.layers) {
-    const double unit = layer.transferFunction.opacityUnitLength.value();
-    const auto& points = layer.transferFunction.points;
+  for (const TransferFunction& function : transferFunctions(scene)) {
+    const double unit = function.opacityUnitLength.value();
+    const auto& points = function.points;
     for (std::size_t i = 1; i < points.size(); ++i) {
       const double change = std::abs(extinctionFromOpacity(points[i].opacity, unit) -
                                      extinctionFromOpacity(points[i - 1].opacity, unit));
@@ -104,7 +104,7 @@ compositor::SubimageView<Rgba> Raycaster::draw(const Camera& camera,
 
   target_.resize(camera.image);
   target_.begin(area);
-  setViewUniforms(*program_, scene_, camera);
+  setViewUniforms(*program_, scene_, camera, volume_.grid);
   program_->use();
   gl().BindVertexArray(vertexArray_.id());
   gl().Enable(GL_BLEND);

@@ -58,7 +58,8 @@ struct ReferenceRenderer::State {
   Span halved(const Path& path, double begin, double end, const Span& whole, double allowed,
               int halvings) const;
   bool meetsNan(const Path& path, double begin, double end) const;
-  glm::dvec4 trace(const ReferenceRay& ray, std::span<const ReferenceLight> lights) const;
+  glm::dvec4 trace(const ReferenceRay& ray, std::span<const ReferenceLight> lights,
+                   const ReferenceExtent& extent) const;
 
   Scene scene;
   ReferenceVolume volume;
@@ -85,13 +86,15 @@ Classified ReferenceRenderer::State::sampleOf(const glm::dvec3& begin, const glm
   const bool preintegrated = scene.quality.preintegrated;
   const double front = preintegrated ? volume.valueAt(begin).value_or(*value) : *value;
   const double back = preintegrated ? volume.valueAt(end).value_or(*value) : *value;
+  const glm::dvec3 world = volume.grid().worldFromIndex(index);
   std::optional<glm::dvec3> gradient;  // of the volume: the same for all layers
   for (const ReferenceLayer& layer : layers) {
-    const Classified plain = preintegrated ? layer.classify(front, back) : layer.classify(*value);
-    // No style adds extinction where the transfer function gives none.
-    if (plain.extinction <= 0) continue;
+    const ReferenceClass classes =
+        preintegrated ? layer.classify(front, back) : layer.classify(*value);
+    // No style adds extinction where the transfer functions give none.
+    if (!classes.shows()) continue;
     if (layer.needsGradient() && !gradient) gradient = volume.gradientAt(index);
-    const Classified sample = layer.shade(plain, gradient.value_or(glm::dvec3{0}), view);
+    const Classified sample = layer.shade(classes, gradient.value_or(glm::dvec3{0}), world, view);
     mixture.colour += sample.extinction * sample.colour;
     mixture.extinction += sample.extinction;
   }
@@ -165,13 +168,14 @@ Span ReferenceRenderer::State::halved(const Path& path, double begin, double end
 }
 
 glm::dvec4 ReferenceRenderer::State::trace(const ReferenceRay& ray,
-                                           std::span<const ReferenceLight> lights) const {
+                                           std::span<const ReferenceLight> lights,
+                                           const ReferenceExtent& extent) const {
   const auto visible = visibleInterval(ray, volume.grid(), scene.clip);
   if (!visible) return glm::dvec4{0};
   const double worldPerDepth = glm::length(ray.direction);
   const Path path{volume.grid().indexFromWorld(ray.origin),
                   volume.grid().worldToIndex() * ray.direction, worldPerDepth,
-                  ReferenceView{-ray.direction / worldPerDepth, lights}};
+                  ReferenceView{-ray.direction / worldPerDepth, lights, extent}};
   const Span sum = scene.quality.maxError ? converged(path, *visible) : stepped(path, *visible);
   return {sum.colour, sum.opacity};
 }
@@ -190,6 +194,7 @@ std::vector<glm::dvec4> ReferenceRenderer::render(const Camera& camera, int firs
   for (const Light& light : state_->scene.lights)
     lights.push_back({lightDirectionWorld(light, camera), light.colour.linear() * light.intensity});
 
+  const ReferenceExtent extent{state_->volume.grid(), camera};
   const auto width = static_cast<std::size_t>(camera.image.width);
   std::vector<glm::dvec4> pixels(width * static_cast<std::size_t>(lastRow - firstRow));
   std::atomic<int> nextRow{firstRow};
@@ -197,7 +202,7 @@ std::vector<glm::dvec4> ReferenceRenderer::render(const Camera& camera, int firs
     for (int row = nextRow++; row < lastRow; row = nextRow++) {
       auto* out = pixels.data() + width * static_cast<std::size_t>(row - firstRow);
       for (int column = 0; column < camera.image.width; ++column)
-        *out++ = state_->trace(referenceRay(camera, column, row), lights);
+        *out++ = state_->trace(referenceRay(camera, column, row), lights, extent);
     }
   };
   std::vector<std::jthread> others;

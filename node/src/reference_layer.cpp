@@ -4,23 +4,19 @@
 #include <cmath>
 
 #include "burin/common/error.hpp"
+#include "reference_blend.hpp"
 
 namespace burin::node {
 namespace {
 
-double smoothstep(double from, double to, double x) {
-  const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
-  return t * t * (3 - 2 * t);
-}
-
-template <typename T>
-T blend(const T& a, const T& b, double amount) {
-  return a + (b - a) * amount;
-}
-
 glm::dvec3 unitOrZero(const glm::dvec3& v) {
   const double length = glm::length(v);
   return length > 0 ? v / length : glm::dvec3{0};
+}
+
+/// e = (1 - |n·v|) q(m).
+double edgeMeasure(const ReferenceFacing& at, const ReferenceView& view) {
+  return std::max(0.0, 1 - std::abs(glm::dot(at.normal, view.toEye))) * at.confidence;
 }
 
 }  // namespace
@@ -29,20 +25,57 @@ ReferenceLayer::ReferenceLayer(const Layer& layer, ReferenceGradientScale& scale
     : transferFunction_{layer.transferFunction},
       unitLength_{transferFunction_.opacityUnitLength.value()},
       means_{transferFunction_, unitLength_} {
-  if (const auto* s = layer.style("surface")) surface_ = Surface{s->curve("opacity")};
+  if (!layer.lineOpacity.empty()) {
+    lineFunction_.emplace();
+    for (const OpacityPoint& point : layer.lineOpacity)
+      lineFunction_->points.push_back({point.value, {}, point.opacity});
+    lineMeans_.emplace(*lineFunction_, unitLength_);
+  }
+  readExtinctionStyles(layer);
+  readColourStyles(layer);
+  readLineStyles(layer);
+  if (needsGradient()) readGradientSettings(layer, scale);
+}
+
+bool ReferenceLayer::needsGradient() const {
+  return surface_ || boundary_ || silhouette_ || light_ || tone_ || toon_ || edges_ || specular_ ||
+         lineSurface_;
+}
+
+ReferenceLayer::Direction ReferenceLayer::directionOf(const StyleSettings& settings) {
+  return {settings.word("along") == "view", settings.direction("axis")};
+}
+
+ReferenceLayer::Enhancement ReferenceLayer::enhancementOf(const StyleSettings& settings) {
+  return {settings.number("constant"), settings.number("scale"), settings.number("exponent")};
+}
+
+void ReferenceLayer::readExtinctionStyles(const Layer& layer) {
+  if (const auto* s = layer.style("surface")) surface_ = s->curve("opacity");
+  if (const auto* s = layer.style("boundary")) boundary_ = enhancementOf(*s);
+  if (const auto* s = layer.style("silhouette")) silhouette_ = enhancementOf(*s);
+  if (const auto* s = layer.style("fade")) fade_ = Fade{directionOf(*s), s->curve("opacity")};
+}
+
+void ReferenceLayer::readColourStyles(const Layer& layer) {
   if (const auto* s = layer.style("light"))
     light_ = Lit{s->number("ambient"), s->number("diffuse"), s->number("normal_color")};
-  if (const auto* s = layer.style("tone"))
-    tone_ =
-        Tone{s->word("mode") == "gooch", s->number("strength"),      s->number("transition"),
-             s->number("yellow"),        s->number("blue"),          s->number("alpha"),
-             s->number("beta"),          s->colour("warm").linear(), s->colour("cool").linear()};
+  if (const auto* s = layer.style("tone")) tone_.emplace(*s);
+  if (const auto* s = layer.style("toon"))
+    toon_ = Toon{s->number("tones"), s->number("strength"), s->number("softness")};
+  if (const auto* s = layer.style("depth"))
+    depth_ = Depth{directionOf(*s),      s->word("mode") == "distance", s->colourCurve("factor"),
+                   s->curve("blend"),    s->colour("color").linear(),   s->number("strength"),
+                   s->number("exponent")};
+}
+
+void ReferenceLayer::readLineStyles(const Layer& layer) {
   if (const auto* s = layer.style("edges"))
     edges_ = Edges{s->number("strength"), s->number("threshold"), s->number("power"),
                    s->colour("color").linear()};
   if (const auto* s = layer.style("specular"))
     specular_ = Specular{s->number("strength"), s->number("exponent")};
-  if (needsGradient()) readGradientSettings(layer, scale);
+  if (const auto* s = layer.style("line_surface")) lineSurface_ = s->curve("opacity");
 }
 
 void ReferenceLayer::readGradientSettings(const Layer& layer, ReferenceGradientScale& scale) {
@@ -58,29 +91,51 @@ void ReferenceLayer::readGradientSettings(const Layer& layer, ReferenceGradientS
   gradientScale_ = settings.word("magnitude") == "maximum" ? scale.maximum() : scale.percentile();
 }
 
-Classified ReferenceLayer::classify(double value) const {
-  return transferFunction_.classify(value, unitLength_);
+ReferenceClass ReferenceLayer::classify(double value) const {
+  const Classified plain = transferFunction_.classify(value, unitLength_);
+  if (!lineFunction_) return {plain, plain.extinction};
+  return {plain, lineFunction_->classify(value, unitLength_).extinction};
 }
 
-Classified ReferenceLayer::classify(double front, double back) const {
-  return means_.between(front, back);
+ReferenceClass ReferenceLayer::classify(double front, double back) const {
+  const Classified mean = means_.between(front, back);
+  if (!lineFunction_) return {mean, mean.extinction};
+  // Where only lines show, a mean weighted by the layer's own extinction says no colour.
+  const double middle = front + (back - front) / 2;
+  return {{transferFunction_.classify(middle, unitLength_).colour, mean.extinction},
+          lineMeans_->between(front, back).extinction};
 }
 
-Classified ReferenceLayer::shade(const Classified& plain, const glm::dvec3& gradient,
-                                 const ReferenceView& view) const {
-  if (!needsGradient()) return plain;
-  const Facing at = facing(gradient, view);
-  Classified sample = plain;
-  if (surface_) sample.extinction *= surface_->opacity.at(at.magnitude);
+Classified ReferenceLayer::shade(const ReferenceClass& classes, const glm::dvec3& gradient,
+                                 const glm::dvec3& world, const ReferenceView& view) const {
+  const ReferenceFacing at = needsGradient() ? facing(gradient, view) : ReferenceFacing{};
+  Classified sample = classes.plain;
+  if (surface_) sample.extinction *= surface_->at(at.magnitude);
+  if (boundary_) sample.extinction *= boundary_->at(at.magnitude);
+  if (silhouette_) sample.extinction *= silhouette_->at(edgeMeasure(at, view));
+  const double faded = fade_ ? fade_->opacity.at(fade_->direction.position(world, view)) : 1.0;
+  sample.extinction *= faded;
   if (light_) sample.colour = lit(sample.colour, at, view);
-  if (tone_) sample.colour = toned(sample.colour, at, view);
-  if (edges_ || specular_) drawLines(sample, plain.extinction, at, view);
+  if (tone_) sample.colour = tone_->apply(sample.colour, at, view);
+  if (toon_) sample.colour = tooned(sample.colour, at, view);
+  if (depth_) sample.colour = distant(sample.colour, world, view);
+  const double lineFactor = faded * (lineSurface_ ? lineSurface_->at(at.magnitude) : 1.0);
+  if (edges_ || specular_) drawLines(sample, classes.lineExtinction, lineFactor, at, view);
   return sample;
 }
 
-ReferenceLayer::Facing ReferenceLayer::facing(const glm::dvec3& gradient,
-                                              const ReferenceView& view) const {
-  Facing at;
+double ReferenceLayer::Enhancement::at(double x) const {
+  return constant + scale * std::pow(x, exponent);
+}
+
+double ReferenceLayer::Direction::position(const glm::dvec3& world,
+                                           const ReferenceView& view) const {
+  return byView ? view.extent.depth(world) : view.extent.along(world, axis);
+}
+
+ReferenceFacing ReferenceLayer::facing(const glm::dvec3& gradient,
+                                       const ReferenceView& view) const {
+  ReferenceFacing at;
   if (gradientScale_ > 0) at.magnitude = std::min(glm::length(gradient) / gradientScale_, 1.0);
   at.confidence = smoothstep(noiseFloor_, 2 * noiseFloor_, at.magnitude);
   at.normal = unitOrZero(gradient);
@@ -90,7 +145,7 @@ ReferenceLayer::Facing ReferenceLayer::facing(const glm::dvec3& gradient,
   return at;
 }
 
-glm::dvec3 ReferenceLayer::lit(const glm::dvec3& colour, const Facing& at,
+glm::dvec3 ReferenceLayer::lit(const glm::dvec3& colour, const ReferenceFacing& at,
                                const ReferenceView& view) const {
   glm::dvec3 shade{light_->ambient};
   for (const ReferenceLight& light : view.lights)
@@ -99,29 +154,37 @@ glm::dvec3 ReferenceLayer::lit(const glm::dvec3& colour, const Facing& at,
   return blend(shaded, at.normal / 2.0 + 0.5, light_->normalColour * at.confidence);
 }
 
-glm::dvec3 ReferenceLayer::toned(const glm::dvec3& colour, const Facing& at,
-                                 const ReferenceView& view) const {
-  if (view.lights.empty()) return colour;
-  const double towards = glm::dot(at.normal, view.lights.front().toLight);
-  const double amount = tone_->strength * at.confidence;
-  if (!tone_->gooch) {
-    const double warmth = smoothstep(-tone_->transition, tone_->transition, towards);
-    return colour * blend(glm::dvec3{1}, blend(tone_->cool, tone_->warm, warmth), amount);
-  }
-  const glm::dvec3 warm = glm::dvec3{tone_->yellow, tone_->yellow, 0} + tone_->beta * colour;
-  const glm::dvec3 cool = glm::dvec3{0, 0, tone_->blue} + tone_->alpha * colour;
-  return blend(colour, warm * ((1 + towards) / 2) + cool * ((1 - towards) / 2), amount);
+/// The tone whose step lies nearest below, going over into the next one around the step.
+glm::dvec3 ReferenceLayer::tooned(const glm::dvec3& colour, const ReferenceFacing& at,
+                                  const ReferenceView& view) const {
+  double intensity = 0;
+  for (const ReferenceLight& light : view.lights)
+    intensity += std::max(0.0, glm::dot(at.normal, light.toLight)) *
+                 glm::dot(light.radiance, glm::dvec3{0.2126, 0.7152, 0.0722});
+  const double scaled = toon_->tones * std::min(intensity, 1.0);
+  double tone = 0;
+  for (int step = 1; step <= std::ceil(toon_->tones); ++step)
+    tone += std::clamp((scaled - step) / toon_->softness + 0.5, 0.0, 1.0);
+  const double whiteness = std::min(tone / (toon_->tones - 1), 1.0);
+  return blend(colour, glm::dvec3{1}, toon_->strength * at.confidence * whiteness);
+}
+
+glm::dvec3 ReferenceLayer::distant(const glm::dvec3& colour, const glm::dvec3& world,
+                                   const ReferenceView& view) const {
+  const double position = depth_->direction.position(world, view);
+  if (depth_->byDistance)
+    return blend(colour, depth_->colour, depth_->strength * std::pow(position, depth_->exponent));
+  return blend(colour * depth_->factor.at(position), depth_->colour, depth_->blend.at(position));
 }
 
 /// Lines replace the colour by their share of the sample and bring extinction of their own, so that
 /// they stand where `surface` has made the material itself transparent (techniques §1, pass II).
-void ReferenceLayer::drawLines(Classified& sample, double plainExtinction, const Facing& at,
-                               const ReferenceView& view) const {
+void ReferenceLayer::drawLines(Classified& sample, double lineExtinction, double factor,
+                               const ReferenceFacing& at, const ReferenceView& view) const {
   double weight = 0;
   glm::dvec3 weighted{0};
   if (edges_) {
-    const double sideways = std::max(0.0, 1 - std::abs(glm::dot(at.normal, view.toEye)));
-    const double measure = std::pow(sideways * at.confidence, edges_->power);
+    const double measure = std::pow(edgeMeasure(at, view), edges_->power);
     const double w = edges_->strength * smoothstep(edges_->threshold, 1, measure);
     weight += w;
     weighted += w * edges_->colour;
@@ -135,9 +198,9 @@ void ReferenceLayer::drawLines(Classified& sample, double plainExtinction, const
       weighted += w * light.radiance;
     }
   if (weight <= 0) return;
-  const double share = std::min(weight, 1.0);
+  const double share = factor * std::min(weight, 1.0);
   sample.colour = blend(sample.colour, weighted / weight, share);
-  sample.extinction = std::max(sample.extinction, plainExtinction * share);
+  sample.extinction = std::max(sample.extinction, lineExtinction * share);
 }
 
 }  // namespace burin::node

@@ -2,25 +2,21 @@
 
 #include <glm/glm.hpp>
 #include <optional>
-#include <span>
-#include <vector>
 
 #include "burin/common/scene.hpp"
 #include "reference_gradient_scale.hpp"
 #include "reference_mean_class.hpp"
+#include "reference_tone.hpp"
+#include "reference_view.hpp"
 
 namespace burin::node {
 
-/// A light as the styles meet it.
-struct ReferenceLight {
-  glm::dvec3 toLight{0, 0, 1};  ///< unit, world space
-  glm::dvec3 radiance{1};       ///< linear colour times intensity
-};
+/// What the values of a segment say before any style.
+struct ReferenceClass {
+  Classified plain;           ///< pass I
+  double lineExtinction = 0;  ///< pass II, where lines are opaque
 
-/// Where a sample is seen from and lit from.
-struct ReferenceView {
-  glm::dvec3 toEye{0, 0, 1};  ///< unit, world space
-  std::span<const ReferenceLight> lights;
+  bool shows() const { return plain.extinction > 0 || lineExtinction > 0; }
 };
 
 /// One layer of the scene, its settings looked up once, evaluated sample by sample.
@@ -28,27 +24,45 @@ class ReferenceLayer {
  public:
   ReferenceLayer(const Layer& layer, ReferenceGradientScale& scale);
 
-  bool needsGradient() const { return surface_ || light_ || tone_ || edges_ || specular_; }
+  bool needsGradient() const;
 
   /// The transfer function alone: of one value, or the mean over the values between two.
-  Classified classify(double value) const;
-  Classified classify(double front, double back) const;
+  ReferenceClass classify(double value) const;
+  ReferenceClass classify(double front, double back) const;
 
-  /// What the styles make of it; `gradient` in world units, ignored if none needs it.
-  Classified shade(const Classified& plain, const glm::dvec3& gradient,
-                   const ReferenceView& view) const;
+  /// What the styles make of it; `gradient` in world units, ignored if none needs it; `world`:
+  /// where.
+  Classified shade(const ReferenceClass& classes, const glm::dvec3& gradient,
+                   const glm::dvec3& world, const ReferenceView& view) const;
 
  private:
-  struct Surface {
-    Curve opacity;
+  /// A factor constant + scale * x^exponent on extinction.
+  struct Enhancement {
+    double constant, scale, exponent;
+    double at(double x) const;
   };
   struct Lit {
     double ambient, diffuse, normalColour;
   };
-  struct Tone {
-    bool gooch;
-    double strength, transition, yellow, blue, alpha, beta;
-    glm::dvec3 warm, cool;
+  struct Toon {
+    double tones, strength, softness;
+  };
+  struct Direction {
+    bool byView;
+    glm::dvec3 axis;
+    double position(const glm::dvec3& world, const ReferenceView& view) const;
+  };
+  struct Fade {
+    Direction direction;
+    Curve opacity;
+  };
+  struct Depth {
+    Direction direction;
+    bool byDistance;
+    ColourCurve factor;
+    Curve blend;
+    glm::dvec3 colour;
+    double strength, exponent;
   };
   struct Edges {
     double strength, threshold, power;
@@ -57,31 +71,41 @@ class ReferenceLayer {
   struct Specular {
     double strength, exponent;
   };
-  /// The direction-dependent facts of one sample.
-  struct Facing {
-    glm::dvec3 normal{0};   ///< unit, or zero where the gradient is
-    double magnitude = 0;   ///< m, in [0, 1]
-    double confidence = 0;  ///< q(m)
-  };
 
+  static Direction directionOf(const StyleSettings& settings);
+  static Enhancement enhancementOf(const StyleSettings& settings);
+  void readExtinctionStyles(const Layer& layer);
+  void readColourStyles(const Layer& layer);
+  void readLineStyles(const Layer& layer);
   void readGradientSettings(const Layer& layer, ReferenceGradientScale& scale);
-  Facing facing(const glm::dvec3& gradient, const ReferenceView& view) const;
-  glm::dvec3 lit(const glm::dvec3& colour, const Facing& at, const ReferenceView& view) const;
-  glm::dvec3 toned(const glm::dvec3& colour, const Facing& at, const ReferenceView& view) const;
-  void drawLines(Classified& sample, double plainExtinction, const Facing& at,
+
+  ReferenceFacing facing(const glm::dvec3& gradient, const ReferenceView& view) const;
+  glm::dvec3 lit(const glm::dvec3& colour, const ReferenceFacing& at,
                  const ReferenceView& view) const;
+  glm::dvec3 tooned(const glm::dvec3& colour, const ReferenceFacing& at,
+                    const ReferenceView& view) const;
+  glm::dvec3 distant(const glm::dvec3& colour, const glm::dvec3& world,
+                     const ReferenceView& view) const;
+  void drawLines(Classified& sample, double lineExtinction, double factor,
+                 const ReferenceFacing& at, const ReferenceView& view) const;
 
   enum class Orientation { kOutward, kInward, kFacing };
 
   TransferFunction transferFunction_;
   double unitLength_;
   ReferenceMeanClass means_;
+  std::optional<TransferFunction> lineFunction_;  ///< pass II's own
+  std::optional<ReferenceMeanClass> lineMeans_;
   double noiseFloor_ = 0;
   double gradientScale_ = 0;
   Orientation orientation_ = Orientation::kOutward;
-  std::optional<Surface> surface_;
+  std::optional<Curve> surface_, lineSurface_;
+  std::optional<Enhancement> boundary_, silhouette_;
+  std::optional<Fade> fade_;
   std::optional<Lit> light_;
-  std::optional<Tone> tone_;
+  std::optional<ReferenceTone> tone_;
+  std::optional<Toon> toon_;
+  std::optional<Depth> depth_;
   std::optional<Edges> edges_;
   std::optional<Specular> specular_;
 };

@@ -13,7 +13,8 @@ GLenum formatOf(Precision precision) {
 
 bool belongsTo(const StyleSettings& settings, LayerPass pass) {
   const StyleSpec& style = *findStyle(settings.name);
-  return !style.hasSnippet || style.drawsLines == (pass == LayerPass::kLines);
+  const StylePasses others = pass == LayerPass::kLines ? StylePasses::kColour : StylePasses::kLines;
+  return !style.hasSnippet || style.passes != others;
 }
 
 /// The scene with that layer alone, and of its styles those of the pass.
@@ -25,10 +26,11 @@ Scene sceneOfPass(const Scene& scene, std::size_t layer, LayerPass pass) {
   return part;
 }
 
-bool hasLines(const Layer& layer) {
-  return std::ranges::any_of(layer.styles, [](const StyleSettings& settings) {
-    return findStyle(settings.name)->drawsLines;
-  });
+/// How many of the scene's transferFunctions() belong to layers before that one.
+std::size_t functionsBefore(const Scene& scene, std::size_t layer) {
+  Scene before = scene;
+  before.layers.resize(layer);
+  return transferFunctions(before).size();
 }
 
 void scissor(const PixelRect& pixels) {
@@ -63,13 +65,14 @@ Slicer::Pass Slicer::makePass(const Scene& scene, std::size_t layer, LayerPass k
 }
 
 void Slicer::setScene(const Scene& scene) {
-  const auto lined = static_cast<std::size_t>(std::ranges::count_if(scene.layers, hasLines));
+  const auto lined =
+      static_cast<std::size_t>(std::ranges::count_if(scene.layers, &Layer::hasLines));
   const bool isDirect = scene.quality.combine == Combine::kOver || scene.layers.size() + lined == 1;
   const SliceTarget target = isDirect ? SliceTarget::kFrame : SliceTarget::kLayerImage;
   std::vector<Pass> passes;
   for (std::size_t i = 0; i < scene.layers.size(); ++i) {
     passes.push_back(makePass(scene, i, LayerPass::kColour, target));
-    if (hasLines(scene.layers[i])) passes.push_back(makePass(scene, i, LayerPass::kLines, target));
+    if (scene.layers[i].hasLines()) passes.push_back(makePass(scene, i, LayerPass::kLines, target));
   }
   GlProgram* const resolve =
       isDirect ? nullptr : program("", generateResolveProgram(scene.layers.size()));
@@ -79,9 +82,11 @@ void Slicer::setScene(const Scene& scene) {
   resolve_ = resolve;
   scene_ = scene;
   for (const Pass& pass : passes_) {
-    setSceneUniforms(*pass.program, sceneOfPass(scene_, pass.layer, pass.kind), volume_,
-                     textures_.tables().subspan(pass.layer, 1),
-                     kFirstTransferUnit + kUnitsPerLayer * static_cast<GLuint>(pass.layer));
+    const std::size_t first = functionsBefore(scene_, pass.layer);
+    const Scene part = sceneOfPass(scene_, pass.layer, pass.kind);
+    setSceneUniforms(*pass.program, part, volume_,
+                     textures_.tables().subspan(first, transferFunctions(part).size()),
+                     kFirstTransferUnit + kUnitsPerFunction * static_cast<GLuint>(first));
     pass.program->set("skipEmpty", options_.skip ? 1.0f : 0.0f);
   }
 }
@@ -100,14 +105,16 @@ compositor::SubimageView<Rgba> Slicer::draw(const Camera& camera,
   textures_.bind(kFirstTransferUnit);
   if (resolve_ != nullptr) {
     const GLuint unit =
-        kFirstTransferUnit + kUnitsPerLayer * static_cast<GLuint>(scene_.layers.size());
+        kFirstTransferUnit + kUnitsPerFunction * static_cast<GLuint>(textures_.tables().size());
     images_.resize(camera.image, scene_.layers.size());
     gl().BindTextureUnit(unit, images_.texture());
     resolve_->set("layerImages", static_cast<int>(unit));
   }
   if (counters_) counters_->begin();
   counted_ = 0;
-  for (const Pass& pass : passes_) setViewUniforms(*pass.program, scene_, camera);
+  for (const Pass& pass : passes_)
+    setViewUniforms(*pass.program, sceneOfPass(scene_, pass.layer, pass.kind), camera,
+                    volume_.grid);
   std::ranges::reverse(jobs);  // back to front
   for (const BrickJob& job : jobs) {
     bindTextures(*job.brick);

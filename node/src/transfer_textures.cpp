@@ -34,7 +34,7 @@ Texture uploadEntries(std::span<const glm::vec4> entries) {
   return texture;
 }
 
-std::array<Texture, kUnitsPerLayer> upload(const TransferTable& table, bool preintegrated) {
+std::array<Texture, kUnitsPerFunction> upload(const TransferTable& table, bool preintegrated) {
   const TransferRows rows = transferRows(table);
   const std::array<std::span<const glm::vec4>, 2> all{rows.table, rows.colour};
   return {uploadRows(std::span{all}.first(preintegrated ? 2 : 1)),
@@ -45,15 +45,11 @@ std::array<Texture, kUnitsPerLayer> upload(const TransferTable& table, bool prei
 
 void TransferTextures::set(const Scene& scene, const ValueScale& scale) {
   const bool preintegrated = scene.quality.preintegrated;
-  if (preintegrated_ == preintegrated &&
-      std::ranges::equal(functions_, scene.layers, {}, {}, &Layer::transferFunction))
-    return;
-  std::vector<TransferFunction> functions;
+  std::vector<TransferFunction> functions = transferFunctions(scene);
+  if (preintegrated_ == preintegrated && functions_ == functions) return;
   std::vector<TransferTable> tables;
   std::vector<Texture> textures;
-  for (const Layer& layer : scene.layers) {
-    const TransferFunction& function = layer.transferFunction;
-    functions.push_back(function);
+  for (const TransferFunction& function : functions) {
     tables.push_back(makeTransferTable(function, function.opacityUnitLength.value(), scale.lowest,
                                        scale.highest));
     for (Texture& texture : upload(tables.back(), preintegrated))

@@ -10,9 +10,9 @@
 
 namespace burin::node {
 
-/// Texture units of one layer: its table's rows; the extinction's, of which nearest texels are
-/// read.
-inline constexpr GLuint kUnitsPerLayer = 2;
+/// Texture units of one transfer function: its table's rows; the extinction's, of which nearest
+/// texels are read.
+inline constexpr GLuint kUnitsPerFunction = 2;
 
 /// A scene's transfer functions as tables and as the textures that programs look them up in. Its
 /// OffscreenContext must be current.
@@ -25,14 +25,15 @@ class TransferTextures {
   std::span<const TransferTable> tables() const { return tables_; }
   /// Of the tables and of their textures.
   std::size_t bytes() const;
-  /// Binds layer i's textures to the units from firstUnit + i * kUnitsPerLayer on.
+  /// Binds the textures of transfer function i to the units from firstUnit + i * kUnitsPerFunction
+  /// on.
   void bind(GLuint firstUnit) const;
 
  private:
   std::vector<TransferFunction> functions_;
   bool preintegrated_ = false;
   std::vector<TransferTable> tables_;
-  std::vector<Texture> textures_;  ///< kUnitsPerLayer of each layer; the second may be none
+  std::vector<Texture> textures_;  ///< kUnitsPerFunction of each; the second may be none
 };
 
 }  // namespace burin::node

@@ -24,18 +24,18 @@ float above(double x) {
 
 std::vector<TransferTable> transferTables(const Scene& scene, const ValueScale& scale) {
   std::vector<TransferTable> tables;
-  for (const Layer& layer : scene.layers)
-    tables.push_back(makeTransferTable(layer.transferFunction,
-                                       layer.transferFunction.opacityUnitLength.value(),
-                                       scale.lowest, scale.highest));
+  for (const TransferFunction& function : transferFunctions(scene))
+    tables.push_back(makeTransferTable(function, function.opacityUnitLength.value(), scale.lowest,
+                                       scale.highest));
   return tables;
 }
 
 VisibleValues::VisibleValues(const Scene& scene, std::span<const TransferTable> tables,
                              const ValueScale& scale) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const std::vector<TransferFunction> functions = transferFunctions(scene);
   for (std::size_t i = 0; i < tables.size(); ++i) {
-    const auto& points = scene.layers[i].transferFunction.points;
+    const auto& points = functions[i].points;
     const TransferTable& table = tables[i];
     const double bin = table.binWidth();
     // Before its first and after its last visible bin the program says exactly 0, so that volumes

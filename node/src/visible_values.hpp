@@ -9,7 +9,7 @@
 
 namespace burin::node {
 
-/// One table per layer of the scene, over the volume's values.
+/// One table for each of the scene's transferFunctions(), over the volume's values.
 std::vector<TransferTable> transferTables(const Scene& scene, const ValueScale& scale);
 
 /// Which stored values any layer of a scene shows: disjoint intervals, so that asking about a range
@@ -18,7 +18,7 @@ std::vector<TransferTable> transferTables(const Scene& scene, const ValueScale& 
 class VisibleValues {
  public:
   VisibleValues() = default;  ///< none
-  /// `tables`: one per layer of the scene.
+  /// `tables`: transferTables() of the scene.
   VisibleValues(const Scene& scene, std::span<const TransferTable> tables, const ValueScale& scale);
 
   /// Whether a value of [lowest, highest] may be seen; stored values.

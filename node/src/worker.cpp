@@ -78,8 +78,7 @@ struct Shown {
 };
 
 bool showsTheSame(const Scene& a, const Scene& b) {
-  return a.clip == b.clip && std::ranges::equal(a.layers, b.layers, {}, &Layer::transferFunction,
-                                                &Layer::transferFunction);
+  return a.clip == b.clip && transferFunctions(a) == transferFunctions(b);
 }
 
 }  // namespace

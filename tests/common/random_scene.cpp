@@ -118,6 +118,8 @@ class Maker {
     }
     if (chance()) made.transferFunction.points.push_back({values.back(), colour(), 1});
     made.transferFunction.opacityUnitLength = maybe(positive());
+    if (chance())
+      for (const double value : values) made.lineOpacity.push_back({value, real(0, 1)});
     for (const StyleSpec& spec : styleTable()) {
       if (chance()) made.styles.push_back(settings(spec));
     }
@@ -135,14 +137,21 @@ class Maker {
         value = colour();
       } else if (std::holds_alternative<std::string>(value)) {
         value = std::string{pick(p.choices)};
+      } else if (std::holds_alternative<glm::dvec3>(value)) {
+        value = vector();
+      } else if (std::holds_alternative<ColourCurve>(value)) {
+        value = curve<ColourCurve>([&] { return colour(); });
       } else {
-        Curve curve;
-        for (int x = whole(-2, 0); x < 2; ++x) {
-          curve.points.push_back({x + real(0, 0.9), real(p.minimum, p.maximum)});
-        }
-        value = curve;
+        value = curve<Curve>([&] { return real(p.minimum, p.maximum); });
       }
     }
+    return made;
+  }
+
+  template <typename AnyCurve, typename Make>
+  AnyCurve curve(Make y) {
+    AnyCurve made;
+    for (int x = whole(-2, 0); x < 2; ++x) made.points.push_back({x + real(0, 0.9), y()});
     return made;
   }
 

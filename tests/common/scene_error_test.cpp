@@ -257,8 +257,8 @@ TEST(SceneError, TransferFunctions) {
 }
 
 TEST(SceneError, StyleParameters) {
-  EXPECT_EQ(complaint(layer(kPoint, R"({ "toon": {} })")),
-            "s.json:4:3: layers[0].style.toon: unknown key; did you mean 'tone'?");
+  EXPECT_EQ(complaint(layer(kPoint, R"({ "tome": {} })")),
+            "s.json:4:3: layers[0].style.tome: unknown key; did you mean 'tone'?");
   EXPECT_THAT(complaint(layer(kPoint, R"({ "edges": { "colour": "#000" } })")),
               HasSubstr("layers[0].style.edges.colour: unknown key; did you mean 'color'?"));
   EXPECT_EQ(complaint(layer(kPoint, R"({ "tone": { "strength": 1.5 } })")),

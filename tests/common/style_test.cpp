@@ -32,6 +32,10 @@ TEST(StyleTable, NamesAreUniqueAndDefaultsLieInTheirRanges) {
           EXPECT_GE(point.y, p.minimum);
           EXPECT_LE(point.y, p.maximum);
         }
+      } else if (const auto* colours = std::get_if<ColourCurve>(&p.defaultValue)) {
+        EXPECT_FALSE(colours->points.empty());
+      } else if (const auto* direction = std::get_if<glm::dvec3>(&p.defaultValue)) {
+        EXPECT_NE(*direction, glm::dvec3{0});
       }
     }
   }
@@ -41,7 +45,21 @@ TEST(StyleTable, EffectsApplyInTheAgreedOrder) {
   std::vector<std::string_view> names;
   for (const StyleSpec& style : styleTable()) names.push_back(style.name);
   EXPECT_THAT(names,
-              testing::ElementsAre("gradient", "surface", "light", "tone", "edges", "specular"));
+              testing::ElementsAre("gradient", "surface", "boundary", "silhouette", "fade", "light",
+                                   "tone", "toon", "depth", "edges", "specular", "line_surface"));
+}
+
+TEST(StyleTable, StylesByPositionSayWhichOne) {
+  std::vector<std::string_view> byPosition;
+  for (const StyleSpec& style : styleTable()) {
+    if (!style.needsPosition) continue;
+    byPosition.push_back(style.name);
+    const StyleSettings settings = defaultSettings(style);
+    EXPECT_EQ(settings.word("along"), "view") << style.name;
+    EXPECT_EQ(settings.direction("axis"), (glm::dvec3{0, 0, 1})) << style.name;
+    EXPECT_EQ(style.ghostLayers, 0) << style.name;
+  }
+  EXPECT_THAT(byPosition, testing::ElementsAre("fade", "depth"));
 }
 
 TEST(StyleTable, FindsByName) {
@@ -75,6 +93,15 @@ TEST(Curve, LinearBetweenPointsAndConstantOutside) {
   EXPECT_EQ(curve.at(2), 0);
 }
 
+TEST(ColourCurve, LinearLightBetweenPointsAndConstantOutside) {
+  const ColourCurve curve{{{-1, {255, 0, 0}}, {0, {0, 0, 255}}, {2, {0, 255, 0}}}};
+  EXPECT_EQ(curve.at(-3), (glm::dvec3{1, 0, 0}));
+  EXPECT_EQ(curve.at(-0.25), (glm::dvec3{0.25, 0, 0.75}));
+  EXPECT_EQ(curve.at(0), (glm::dvec3{0, 0, 1}));
+  EXPECT_EQ(curve.at(0.5), (glm::dvec3{0, 0.25, 0.75}));
+  EXPECT_EQ(curve.at(9), (glm::dvec3{0, 1, 0}));
+}
+
 TEST(StyleHelp, NamesEveryParameterWithItsRangeAndDefault) {
   const std::string help = styleHelp();
   for (const StyleSpec& style : styleTable()) {
@@ -86,7 +113,9 @@ TEST(StyleHelp, NamesEveryParameterWithItsRangeAndDefault) {
   }
   EXPECT_THAT(help,
               testing::HasSubstr("shininess; large is small and sharp (1 … 200, default 32)"));
-  EXPECT_THAT(help, testing::HasSubstr("(map | gooch, default map)"));
+  EXPECT_THAT(help, testing::HasSubstr("(map | colors | gooch | ebert, default map)"));
+  EXPECT_THAT(help, testing::HasSubstr("(direction, default [0, 0, 1])"));
+  EXPECT_THAT(help, testing::HasSubstr("(curve of colours, default [[-1, #"));
   EXPECT_THAT(help, testing::HasSubstr("default #7088c8"));
   EXPECT_THAT(help, testing::HasSubstr("0 … 4, default [[0.02, 0], [0.25, 1]]"));
 }

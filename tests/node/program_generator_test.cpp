@@ -24,6 +24,34 @@ TEST(ProgramGenerator, HoldsOnlyWhatTheSceneUses) {
   EXPECT_THAT(tone, Not(HasSubstr("apply_edges")));
 }
 
+TEST(ProgramGenerator, AStyleThatIsNotUsedIsNowhereInTheProgram) {
+  for (const StyleSpec& absent : styleTable()) {
+    Scene scene = sceneWithStyle("all");
+    std::erase_if(scene.layers[0].styles,
+                  [&](const StyleSettings& s) { return s.name == absent.name; });
+    const std::string text = generateRaycastProgram(scene, {}).text;
+    if (absent.hasSnippet) EXPECT_THAT(text, Not(HasSubstr("apply_" + std::string{absent.name})));
+    for (const ParameterSpec& parameter : absent.parameters)
+      if (absent.hasSnippet)
+        EXPECT_THAT(text, Not(HasSubstr(parameterUniform(0, absent.name, parameter.name))));
+    EXPECT_THAT(text, Not(HasSubstr("struct " + std::string{absent.name} + "_parameters")));
+  }
+  const std::string plain = generateRaycastProgram(sceneWithStyle("light"), {}).text;
+  for (const char* name : {"positionAt", "evaluateCurve", "evaluateColourCurve", "transfer1"})
+    EXPECT_THAT(plain, Not(HasSubstr(name)));
+}
+
+TEST(ProgramGenerator, GhostLayersAreThoseOfTheStylesUsed) {
+  for (const std::string& name : test::drawnStyles()) {
+    Scene scene = sceneWithStyle(name);
+    scene.quality.preintegrated = false;
+    int most = 0;
+    for (const StyleSettings& style : scene.layers[0].styles)
+      most = std::max(most, findStyle(style.name)->ghostLayers);
+    EXPECT_EQ(ghostLayersNeeded(scene), most) << name;
+  }
+}
+
 TEST(ProgramGenerator, ValuesDoNotChangeTheText) {
   Scene scene = sceneWithStyle("all");
   const std::string before = generateRaycastProgram(scene, {}).text;
@@ -34,16 +62,10 @@ TEST(ProgramGenerator, ValuesDoNotChangeTheText) {
   EXPECT_EQ(generateRaycastProgram(scene, {}).text, before);
 }
 
-TEST(ProgramGenerator, EveryPermutationCompiles) {
+TEST(ProgramGenerator, EveryPairOfStylesCompiles) {
   const OffscreenContext context{{}};
-  std::vector<std::string> styles;
-  for (const StyleSpec& style : styleTable())
-    if (style.hasSnippet) styles.emplace_back(style.name);
-  for (unsigned set = 0; set < 1u << styles.size(); ++set) {
-    Scene scene = sceneWithStyle("plain");
-    for (std::size_t i = 0; i < styles.size(); ++i)
-      if ((set >> i & 1u) != 0)
-        scene.layers[0].styles.push_back(defaultSettings(*findStyle(styles[i])));
+  for (unsigned set = 0; set < test::kStyleSets; ++set) {
+    Scene scene = test::sceneWithStyleSet(set);
     const ProgramOptions options{.invalidVoxels = set % 3 == 0, .countSamples = set % 4 == 0};
     if (set % 5 == 0) scene.clip = {{{1, 0, 0}, 0}, {{0, 1, 0}, 0}};
     EXPECT_NO_THROW((GlProgram{fullscreenVertexSource(), generateRaycastProgram(scene, options)}))

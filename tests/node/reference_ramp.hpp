@@ -16,6 +16,7 @@ struct RampProbe {
   Camera camera = makeCamera(Projection::kOrthographic, grid.centreWorld() + glm::dvec3{3, 2, 9},
                              grid.centreWorld(), 1, {1, 1});
   TransferFunction transfer = constantTransfer({200, 150, 90}, 0.3);
+  std::vector<OpacityPoint> lineOpacity;
   double gradientScale = 4;
   std::vector<Light> lights = {
       {.direction = {-1, -2, 2}, .eyeSpace = false, .colour = {255, 200, 150}, .intensity = 0.8},
@@ -42,6 +43,7 @@ struct RampProbe {
     const glm::dvec4 plain = draw(scene, source, camera, gradientScale).at(at);
     BURIN_CHECK(plain.a > 0.1);
     scene.layers[0].styles = std::move(styles);
+    scene.layers[0].lineOpacity = lineOpacity;
     const glm::dvec4 styled = draw(scene, source, camera, gradientScale).at(at);
     return {rgb(styled) / styled.a, opticalDepth(styled) / opticalDepth(plain)};
   }

@@ -101,6 +101,183 @@ TEST(ReferenceStyle, ToneGooch) {
   expectNear(kProbe.measure({tone}).colour, 0.1 * c + 0.9 * toned);
 }
 
+TEST(ReferenceStyle, ToneOfAnyColours) {
+  const ColourCurve colours{{{-1, {0, 0, 90}}, {0.5, {80, 10, 30}}, {0.9, {255, 200, 10}}}};
+  const auto tone =
+      makeStyle("tone", {{"mode", std::string{"colors"}}, {"strength", 0.7}, {"colors", colours}});
+  const double t = (kCosine0 - 0.5) / 0.4;
+  const glm::dvec3 map = (1 - t) * Colour{80, 10, 30}.linear() + t * Colour{255, 200, 10}.linear();
+  expectNear(kProbe.measure({tone}).colour, kProbe.colour() * (0.3 + 0.7 * map));
+}
+
+TEST(ReferenceStyle, ToneOfEbertAndRheingans) {
+  const auto tone = makeStyle("tone", {{"mode", std::string{"ebert"}},
+                                       {"strength", 0.9},
+                                       {"yellow", 0.3},
+                                       {"blue", 0.5},
+                                       {"alpha", 0.1},
+                                       {"beta", 0.7},
+                                       {"ambient", 0.15},
+                                       {"diffuse", 0.4}});
+  const glm::dvec3 c = kProbe.colour();
+  const glm::dvec3 warm{0.3 + 0.7 * c.r, 0.3 + 0.7 * c.g, 0.7 * c.b};
+  const glm::dvec3 cool{0.1 * c.r, 0.1 * c.g, 0.5 + 0.1 * c.b};
+  glm::dvec3 sum = 0.15 * c;
+  for (const std::size_t light : {0u, 1u}) {
+    const double cosine = light == 0 ? kCosine0 : kCosine1;
+    sum += warm * (1 + cosine) / 2.0 + cool * (1 - cosine) / 2.0;
+    sum += 0.4 * radiance(light) * cosine * c;
+  }
+  expectNear(kProbe.measure({tone}).colour, 0.1 * c + 0.9 * sum);
+  const double share = 0.9 * kHalfConfidence;
+  expectNear(kProbe.measure({kHalfSure, tone}).colour, (1 - share) * c + share * sum);
+}
+
+TEST(ReferenceStyle, ToonHasFlatTonesAndTheColourIsTheDarkest) {
+  RampProbe probe;
+  const auto whiteness = [&](double tones, double softness, double intensity) {
+    probe.lights = {{.direction = kNormal, .eyeSpace = false, .intensity = intensity}};
+    const auto toon = makeStyle("toon", {{"tones", tones}, {"softness", softness}});
+    const glm::dvec3 seen = probe.measure({toon}).colour;
+    return (seen - probe.colour()) / (1.0 - probe.colour());
+  };
+  // q I and the tone min(q - 1, floor(q I)) over q - 1.
+  const std::pair<double, double> tones[] = {
+      {0.05, 0}, {0.2, 0}, {0.3, 1 / 3.0}, {0.45, 1 / 3.0}, {0.7, 2 / 3.0}, {0.8, 1}, {1.7, 1}};
+  for (const auto& [intensity, tone] : tones)
+    expectNear(whiteness(4, 0.1, intensity), glm::dvec3{tone});
+  expectNear(whiteness(2, 0.1, 0.6), glm::dvec3{1});
+  // A quarter of the way through the step at 1/4: 4 I = 1 - 0.2 / 4.
+  expectNear(whiteness(4, 0.2, 0.95 / 4), glm::dvec3{0.25 / 3});
+}
+
+TEST(ReferenceStyle, ToonAddsUpLightsByTheirLuminance) {
+  RampProbe probe;
+  const glm::dvec3 luminance{0.2126, 0.7152, 0.0722};
+  const double intensity =
+      kCosine0 * glm::dot(luminance, radiance(0)) + kCosine1 * glm::dot(luminance, radiance(1));
+  ASSERT_LT(intensity, 1);
+  // So many tones that it lies within the step of one, half of which is 1/2 wide.
+  const double tones = 3 / intensity;
+  const auto toon = makeStyle("toon", {{"tones", tones}, {"softness", 1.0}, {"strength", 0.6}});
+  for (const bool sure : {true, false}) {
+    const double share = 0.6 * 2.5 / (tones - 1) * (sure ? 1 : kHalfConfidence);
+    const Classified sample = sure ? probe.measure({toon}) : probe.measure({kHalfSure, toon});
+    expectNear(sample.colour, (1 - share) * probe.colour() + share);
+  }
+}
+
+TEST(ReferenceStyle, BoundaryAndSilhouetteMultiplyExtinction) {
+  const auto boundary =
+      makeStyle("boundary", {{"constant", 0.3}, {"scale", 2.5}, {"exponent", 1.4}});
+  const auto silhouette =
+      makeStyle("silhouette", {{"constant", 0.2}, {"scale", 1.5}, {"exponent", 0.8}});
+  const double b = 0.3 + 2.5 * std::pow(kMagnitude, 1.4);
+  const double e = 1 - std::abs(glm::dot(kNormal, kToEye));
+  const double s = 0.2 + 1.5 * std::pow(e, 0.8);
+  Classified sample = kProbe.measure({boundary});
+  EXPECT_NEAR(sample.extinction, b, kProbeRounding);
+  expectNear(sample.colour, kProbe.colour());
+  EXPECT_NEAR(kProbe.measure({silhouette}).extinction, s, kProbeRounding);
+  EXPECT_NEAR(kProbe.measure({boundary, silhouette}).extinction, b * s, kProbeRounding);
+  EXPECT_NEAR(kProbe.measure({kHalfSure, silhouette}).extinction,
+              0.2 + 1.5 * std::pow(e * kHalfConfidence, 0.8), kProbeRounding);
+}
+
+/// The probe looked at along z, in parallel: indices 2 … 9 of 0 … 11 are kept.
+RampProbe probeAlongZ() {
+  RampProbe probe;
+  probe.camera =
+      makeCamera(Projection::kOrthographic, probe.grid.centreWorld() + glm::dvec3{0, 0, 9},
+                 probe.grid.centreWorld(), 1, {1, 1});
+  return probe;
+}
+
+TEST(ReferenceStyle, FadeByViewDepthAndByAnyAxis) {
+  const RampProbe probe = probeAlongZ();
+  // A linear curve, whose mean is that of the midpoints at any step.
+  const Curve line{{{-1, 0}, {2, 0.9}}};
+  const auto at = [](double x) { return 0.3 * (x + 1); };
+  const auto extinction = [&](const std::string& along, const glm::dvec3& axis) {
+    return probe.measure({makeStyle("fade", {{"along", along}, {"axis", axis}, {"opacity", line}})})
+        .extinction;
+  };
+  // Depth in planes of the bounding sphere, of radius √3 · 11/2: the middle of what is kept is the
+  // centre.
+  EXPECT_NEAR(extinction("view", {0, 0, 1}), at(0.5), kProbeRounding);
+  // Along an axis across the view every sample of the ray through the centre lies in its middle.
+  EXPECT_NEAR(extinction("axis", {1, 0, 0}), at(0.5), kProbeRounding);
+  RampProbe aside = probe;
+  aside.camera.eyeWorld += glm::dvec3{2, -1, 0};
+  const auto asideAt = [&](const glm::dvec3& axis) {
+    return aside
+        .measure({makeStyle("fade",
+                            {{"along", std::string{"axis"}}, {"axis", axis}, {"opacity", line}})})
+        .extinction;
+  };
+  // The box's extent along (2, -1, 1) is 11 · 4, the ray's middle is 2·2 + 1 beyond its centre.
+  EXPECT_NEAR(asideAt({2, -1, 1}), at(0.5 + 5 / 44.0), kProbeRounding);
+  EXPECT_NEAR(asideAt({-4, 2, -2}), at(0.5 - 5 / 44.0), kProbeRounding);
+}
+
+TEST(ReferenceStyle, DepthIsAFactorThenABlendOrADistance) {
+  const RampProbe probe = probeAlongZ();
+  const ColourCurve factor{{{-1, {255, 0, 90}}, {2, {10, 255, 30}}}};
+  const Curve blend{{{0.5, 0.4}}};
+  const Colour far{30, 60, 200};
+  const auto curves = makeStyle("depth", {{"factor", factor}, {"blend", blend}, {"color", far}});
+  const glm::dvec3 tint = 0.5 * (Colour{255, 0, 90}.linear() + Colour{10, 255, 30}.linear());
+  // Every sample's share of the pixel falls from front to back; only across the view are they
+  // alike.
+  const auto across = makeStyle("depth", {{"along", std::string{"axis"}},
+                                          {"axis", glm::dvec3{1, 0, 0}},
+                                          {"factor", factor},
+                                          {"blend", blend},
+                                          {"color", far}});
+  expectNear(probe.measure({across}).colour, 0.6 * probe.colour() * tint + 0.4 * far.linear());
+  const auto distance = makeStyle("depth", {{"along", std::string{"axis"}},
+                                            {"axis", glm::dvec3{1, 0, 0}},
+                                            {"mode", std::string{"distance"}},
+                                            {"color", far},
+                                            {"strength", 0.8},
+                                            {"exponent", 2.0}});
+  expectNear(probe.measure({distance}).colour, 0.8 * probe.colour() + 0.2 * far.linear());
+  // Along the view: nearer samples count more, and they are the tint's first colour.
+  const glm::dvec3 seen = probe.measure({curves}).colour;
+  EXPECT_GT((seen.r - 0.4 * far.linear().r) / (0.6 * probe.colour().r), tint.r + 0.01);
+}
+
+TEST(ReferenceStyle, LinesByMagnitudeAndFade) {
+  const Colour ink{20, 40, 120};
+  const auto edges = makeStyle("edges", {{"threshold", 0.02}, {"color", ink}});
+  const auto lines = makeStyle("line_surface", {{"opacity", Curve{{{0.2, 0}, {0.8, 0.9}}}}});
+  const auto fade = makeStyle("fade", {{"opacity", Curve{{{0, 0.7}}}}});
+  const double weight = smooth(0.02, 1, 1 - std::abs(glm::dot(kNormal, kToEye)));
+  const double amount = weight * 0.9 * (kMagnitude - 0.2) / 0.6;
+  Classified sample = kProbe.measure({edges, lines});
+  expectNear(sample.colour, (1 - amount) * kProbe.colour() + amount * ink.linear());
+  EXPECT_NEAR(sample.extinction, 1, kProbeRounding);
+  sample = kProbe.measure({edges, lines, fade});
+  expectNear(sample.colour, (1 - 0.7 * amount) * kProbe.colour() + 0.7 * amount * ink.linear());
+  EXPECT_NEAR(sample.extinction, 0.7, kProbeRounding);
+}
+
+TEST(ReferenceStyle, LinesWithTheirOwnOpacityShowWhereNothingElseDoes) {
+  const double own = -std::log1p(-0.6);
+  const double unit = -std::log1p(-0.3);  // the transfer function's
+  const auto edges = makeStyle("edges", {{"threshold", 0.02}});
+  const double weight = smooth(0.02, 1, 1 - std::abs(glm::dot(kNormal, kToEye)));
+  RampProbe probe;
+  probe.lineOpacity = {{0, 0.6}, {1, 0.6}};
+  EXPECT_NEAR(probe.measure({edges}).extinction, std::max(1.0, own / unit * weight),
+              kProbeRounding);
+  // Material that shows nothing itself gives its colour to what the lines do not replace.
+  const auto nothing = makeStyle("surface", {{"opacity", Curve{{{0, 0}}}}});
+  const Classified sample = probe.measure({nothing, edges});
+  EXPECT_NEAR(sample.extinction, own / unit * weight, kProbeRounding);
+  expectNear(sample.colour, (1 - weight) * probe.colour());
+}
+
 TEST(ReferenceStyle, ToneWithoutLightsLeavesTheColour) {
   RampProbe probe;
   probe.lights.clear();

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "burin/common/error.hpp"
 #include "burin/common/scene.hpp"
 #include "support/array_source.hpp"
 
@@ -37,7 +38,13 @@ inline TransferFunction gentleTransferFunction(double scale = 1) {
           std::nullopt};
 }
 
-/// One layer, that style alone (none for "plain"), at 72×56 pixels, no termination.
+/// Opacities for lines: most where gentleTransferFunction() shows nothing, and gaps where it does.
+inline std::vector<OpacityPoint> gentleLineOpacity() {
+  return {{0.1, 0}, {0.25, 0.3}, {0.4, 0.05}, {0.5, 0}, {0.6, 0}, {0.8, 0.2}};
+}
+
+/// One layer, that style alone (none for "plain"; of "line_opacity", which is a layer's own, and
+/// "line_surface" with lines), at 72×56 pixels, no termination.
 inline Scene sceneWithStyle(const std::string& style) {
   Scene scene;
   scene.volume.procedural = "homogeneous";  // the source is given separately
@@ -48,6 +55,13 @@ inline Scene sceneWithStyle(const std::string& style) {
   layer.transferFunction = gentleTransferFunction();
   if (style == "all") {
     for (const StyleSpec& spec : styleTable()) layer.styles.push_back(defaultSettings(spec));
+  } else if (style == "line_opacity") {
+    layer.lineOpacity = gentleLineOpacity();
+    for (const char* lines : {"edges", "specular"})
+      layer.styles.push_back(defaultSettings(*findStyle(lines)));
+  } else if (style == "line_surface") {
+    for (const char* lines : {"edges", "line_surface"})
+      layer.styles.push_back(defaultSettings(*findStyle(lines)));
   } else if (style != "plain") {
     layer.styles.push_back(defaultSettings(*findStyle(style)));
   }
@@ -55,12 +69,40 @@ inline Scene sceneWithStyle(const std::string& style) {
   return scene;
 }
 
-/// Every style that draws, "plain" and "all".
+/// Every style that draws, "plain", "all" and "line_opacity".
 inline std::vector<std::string> drawnStyles() {
-  std::vector<std::string> names{"plain", "all"};
+  std::vector<std::string> names{"plain", "all", "line_opacity"};
   for (const StyleSpec& spec : styleTable())
     if (spec.hasSnippet) names.emplace_back(spec.name);
   return names;
+}
+
+/// Sets of styles, such that of any two styles there are sets with both, with none, and with either
+/// one alone.
+inline constexpr unsigned kStyleSets = 12;
+
+/// One layer with set number `set` of kStyleSets. The words of parameters go round from set to set.
+inline Scene sceneWithStyleSet(unsigned set) {
+  // Styles differ in a bit of their numbers, and each bit has a set and one with all others.
+  const auto isIn = [&](unsigned number) {
+    if (set < 2) return set == 0;
+    return ((number >> (set / 2 - 1)) & 1u) == set % 2;
+  };
+  Scene scene = sceneWithStyle("plain");
+  Layer& layer = scene.layers.front();
+  unsigned number = 0;
+  for (const StyleSpec& spec : styleTable()) {
+    if (!isIn(number++)) continue;
+    StyleSettings settings = defaultSettings(spec);
+    for (std::size_t i = 0; i < spec.parameters.size(); ++i) {
+      const auto& choices = spec.parameters[i].choices;
+      if (!choices.empty()) settings.values[i] = std::string{choices[(set + i) % choices.size()]};
+    }
+    layer.styles.push_back(std::move(settings));
+  }
+  if (isIn(number++)) layer.lineOpacity = gentleLineOpacity();
+  BURIN_CHECK(number <= 1u << (kStyleSets / 2 - 1));  // else a pair differs in no bit
+  return scene;
 }
 
 }  // namespace burin::test

@@ -14,10 +14,7 @@ namespace {
 
 /// Whether "over" differs from "sum": if anything meets at a sample.
 bool hasSeveralPasses(const Scene& scene) {
-  const auto drawsLines = [](const StyleSettings& style) {
-    return findStyle(style.name)->drawsLines;
-  };
-  return scene.layers.size() > 1 || std::ranges::any_of(scene.layers.front().styles, drawsLines);
+  return scene.layers.size() > 1 || scene.layers.front().hasLines();
 }
 
 std::vector<AccuracyMeasurement> raysOf(const std::string& scene, const AccuracyPlan& plan) {

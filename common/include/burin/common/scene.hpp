@@ -63,13 +63,23 @@ struct Light {
   friend bool operator==(const Light&, const Light&) = default;
 };
 
+struct OpacityPoint {
+  double value = 0;    ///< data units
+  double opacity = 0;  ///< in [0, 1], per opacity unit length
+  friend bool operator==(const OpacityPoint&, const OpacityPoint&) = default;
+};
+
 struct Layer {
   std::string name;
   TransferFunction transferFunction;
+  /// Pass II's own opacity by value, as the transfer function's; none: the transfer function's.
+  std::vector<OpacityPoint> lineOpacity = {};
   std::vector<StyleSettings> styles;  ///< in the order of styleTable(), each at most once
 
   /// nullptr when the layer does not use that style.
   const StyleSettings* style(std::string_view styleName) const;
+  /// Whether any style works on lines.
+  bool hasLines() const;
   friend bool operator==(const Layer&, const Layer&) = default;
 };
 
@@ -145,6 +155,9 @@ glm::dvec3 lightDirectionWorld(const Light& light, const Camera& camera);
 /// Largest ghost width that any layer's styles declare or that the ends of pre-integrated segments
 /// need; 0 if nothing looks beyond a brick's own cells.
 int ghostLayersNeeded(const Scene& scene);
+/// What a scene looks up by value: the transfer function of each layer, followed by that of its
+/// lines (black) if it has line opacities.
+std::vector<TransferFunction> transferFunctions(const Scene& scene);
 /// Whether any layer needs gradients.
 bool gradientNeeded(const Scene& scene);
 

@@ -18,8 +18,23 @@ struct Curve {
   friend bool operator==(const Curve&, const Curve&) = default;
 };
 
-/// A number, a colour, one word of a list, or a curve.
-using ParameterValue = std::variant<double, Colour, std::string, Curve>;
+struct ColourPoint {
+  double x = 0;
+  Colour colour;
+  friend bool operator==(const ColourPoint&, const ColourPoint&) = default;
+};
+
+/// Colours over x, piecewise linear in linear RGB through points sorted by x (strictly); the end
+/// colours hold outside.
+struct ColourCurve {
+  std::vector<ColourPoint> points;
+  glm::dvec3 at(double x) const;  ///< linear RGB
+  friend bool operator==(const ColourCurve&, const ColourCurve&) = default;
+};
+
+/// A number, a colour, one word of a list, a curve, a curve of colours, or a direction (world
+/// space, not zero, need not be unit).
+using ParameterValue = std::variant<double, Colour, std::string, Curve, ColourCurve, glm::dvec3>;
 
 /// One style parameter: the only place where its name, range, default, unit and help stand. The
 /// scene parser, schema.json, --help and the GUI's panels are generated from it.
@@ -33,14 +48,22 @@ struct ParameterSpec {
   std::vector<std::string_view> choices = {};  ///< for a word
 };
 
+/// Passes of a layer (Lum & Ma, Figure 10) that a style works on.
+enum class StylePasses {
+  kColour,  ///< pass I alone: colour and extinction
+  kLines,   ///< pass II alone: what lines there are; colour and extinction are left alone
+  kBoth,    ///< colour and extinction, and the amount of lines
+};
+
 /// One style: a key under "style" of a layer, a snippet node/shaders/styles/<name>.glsl with
 /// function apply_<name>, and a branch in the reference renderer.
 struct StyleSpec {
   std::string_view name;
   std::string_view help;
   bool needsGradient = false;
-  /// Pass II (Lum & Ma): adds to the line and leaves colour and extinction alone.
-  bool drawsLines = false;
+  /// Depends on where the sample lies. The parameters then have "along" (view or axis) and "axis".
+  bool needsPosition = false;
+  StylePasses passes = StylePasses::kColour;
   int ghostLayers = 0;     ///< voxels beyond the brick's own that its look-ups touch
   bool hasSnippet = true;  ///< false: settings read by shared code (gradient)
   std::vector<ParameterSpec> parameters;
@@ -61,6 +84,8 @@ struct StyleSettings {
   const Colour& colour(std::string_view parameter) const;
   const std::string& word(std::string_view parameter) const;
   const Curve& curve(std::string_view parameter) const;
+  const ColourCurve& colourCurve(std::string_view parameter) const;
+  const glm::dvec3& direction(std::string_view parameter) const;
   friend bool operator==(const StyleSettings&, const StyleSettings&) = default;
 };
 
