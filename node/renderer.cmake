@@ -12,9 +12,9 @@ add_library(burin_gl_loader STATIC ${glad_dir}/src/gl.c)
 target_include_directories(burin_gl_loader PUBLIC $<BUILD_INTERFACE:${glad_dir}/include>)
 
 set(shader_files
-  fullscreen.vert lattice.glsl ownership.glsl opacity.glsl volume.glsl skip.glsl preintegration.glsl sides.glsl
-  shading.glsl position.glsl adaptive.glsl cells.glsl halving.glsl raycast.glsl slice.glsl
-  resolve.glsl
+  fullscreen.vert lattice.glsl ownership.glsl opacity.glsl volume.glsl neighbourhood.glsl
+  skip.glsl preintegration.glsl sides.glsl shading.glsl position.glsl adaptive.glsl cells.glsl
+  halving.glsl raycast.glsl slice.glsl resolve.glsl
   styles/surface.glsl styles/boundary.glsl styles/silhouette.glsl styles/fade.glsl styles/light.glsl
   styles/tone.glsl styles/toon.glsl styles/depth.glsl styles/edges.glsl styles/specular.glsl
   styles/line_surface.glsl)

@@ -7,7 +7,7 @@ burin_library(volumes
           src/procedural.cpp src/vessel_tree.cpp src/ct_phantom.cpp
           src/volume_writer.cpp src/gzip_writer.cpp src/nrrd_header.cpp src/nifti_header.cpp
           src/slab_reading.cpp src/slab_scatter.cpp
-          src/survey.cpp src/range_survey.cpp src/gradient_survey.cpp
+          src/survey.cpp src/range_survey.cpp src/gradient_survey.cpp src/operator_weights.cpp
   PUBLIC burin::scene burin::mpi
   PRIVATE Teem::teem NIFTI::nifti2 ZLIB::ZLIB)
 burin_unity(burin_volumes)

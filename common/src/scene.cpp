@@ -160,8 +160,23 @@ std::vector<TransferFunction> transferFunctions(const Scene& scene) {
   return functions;
 }
 
+GradientOperator gradientOperator(const Layer& layer) {
+  const StyleSettings* own = layer.style("gradient");
+  const std::string word =
+      (own != nullptr ? *own : defaultSettings(*findStyle("gradient"))).word("operator");
+  if (word == "sobel") return GradientOperator::kSobel;
+  return word == "regression" ? GradientOperator::kRegression : GradientOperator::kCentral;
+}
+
+GradientOperatorSet gradientOperatorsNeeded(const Scene& scene) {
+  GradientOperatorSet needed;
+  for (const Layer& layer : scene.layers)
+    if (needsGradient(layer)) needed.insert(gradientOperator(layer));
+  return needed;
+}
+
 bool gradientNeeded(const Scene& scene) {
-  return std::any_of(scene.layers.begin(), scene.layers.end(), needsGradient);
+  return !gradientOperatorsNeeded(scene).empty();
 }
 
 }  // namespace burin

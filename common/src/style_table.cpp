@@ -34,6 +34,10 @@ StyleSpec gradientStyle() {
           .ghostLayers = 1,
           .hasSnippet = false,
           .parameters = {
+              {.name = "operator",
+               .help = "differences of six neighbours, or smoothed over 3x3x3 voxels: less speckle",
+               .defaultValue = "central"s,
+               .choices = {"central", "sobel", "regression"}},
               {.name = "noise_floor",
                .help = "gradient magnitude below which there is no direction",
                .defaultValue = 0.02,

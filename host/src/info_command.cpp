@@ -47,12 +47,13 @@ std::string describeFile(const node::VolumeInfo& info) {
 }
 
 std::string describeValues(const node::VolumeSurvey& survey) {
+  const node::GradientScales& gradients = survey.gradients[GradientOperator::kCentral];
   return line("range", fmt::format("{:.7g} … {:.7g}", survey.lowest, survey.highest)) +
          line("not finite",
               fmt::format("{} NaN, {} infinite", survey.nanCount, survey.infiniteCount)) +
          line("gradient",
               fmt::format("{:.6g} per world unit at the 99.9th percentile, {:.6g} at most",
-                          survey.gradient999, survey.largestGradient));
+                          gradients.percentile, gradients.maximum));
 }
 
 }  // namespace
@@ -62,7 +63,8 @@ int runCommand(const Communicator& comm, const InfoOptions& options) {
   choice.file = options.volume;
   options.raw.applyTo(choice);
   const auto source = openTogether(comm, choice);
-  const auto survey = node::surveyVolume(comm, *source, true);
+  const auto survey =
+      node::surveyVolume(comm, *source, {GradientOperatorSet{GradientOperator::kCentral}});
   const Histogram histogram = computeHistogram(comm, *source, survey);
   if (!comm.isRoot()) return 0;
   const std::string text = describeFile(source->info()) + describeValues(survey) +

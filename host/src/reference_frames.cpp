@@ -44,11 +44,13 @@ class ReferenceFrames : public FrameMaker {
         threads_{node::threadShare(comm, !(dedicatedHost && comm.isRoot()))},
         report_{std::move(report)} {
     // The survey's percentile, as the renderer uses it: the two are made to be compared.
-    std::optional<double> gradientScale;
-    if (gradientNeeded(prepared.scene))
-      gradientScale = node::surveyVolume(comm, *prepared.source, true).gradient999;
+    node::ReferenceScales scales;
+    const GradientOperatorSet operators = gradientOperatorsNeeded(prepared.scene);
+    if (!operators.empty())
+      scales = node::surveyedScales(node::surveyVolume(comm, *prepared.source, {operators}),
+                                    prepared.scene);
     collectively(comm, "loading the volume",
-                 [&] { renderer_.emplace(prepared.scene, *prepared.source, gradientScale); });
+                 [&] { renderer_.emplace(prepared.scene, *prepared.source, scales); });
   }
 
   ImageView<const Rgba> make(const Camera& camera, RankStatistics& statistics) override {

@@ -63,7 +63,7 @@ Scene readScene(const Communicator& comm, const RenderOptions& options) {
 Scene sceneFromVolume(const Communicator& comm, const RenderOptions& options,
                       const VolumeChoice& choice, node::BrickSource& source,
                       const VolumeFacts& facts) {
-  const auto survey = node::surveyVolume(comm, source, false);
+  const auto survey = node::surveyVolume(comm, source, {});
   const Histogram histogram = computeHistogram(comm, source, survey);
   const std::string text = writeScene(makeDefaultScene(choice, facts, histogram));
   RenderOptions withoutQuality = options;

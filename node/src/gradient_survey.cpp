@@ -40,9 +40,11 @@ double MagnitudeHistogram::percentile(double fraction) const {
   return double{std::bit_cast<float>(static_cast<std::uint32_t>(at) << kDroppedBits)};
 }
 
-GradientSurvey::GradientSurvey(const VolumeInfo& info, int firstZ, int lastZ, float lowest,
-                               float highest)
-    : type_{info.type},
+GradientSurvey::GradientSurvey(GradientOperator which, const VolumeInfo& info, int firstZ,
+                               int lastZ, float lowest, float highest)
+    : which_{which},
+      weights_{operatorWeights(which)},
+      type_{info.type},
       dims_{info.grid.dims},
       firstZ_{firstZ},
       lastZ_{lastZ},
@@ -53,7 +55,7 @@ GradientSurvey::GradientSurvey(const VolumeInfo& info, int firstZ, int lastZ, fl
   metric_ = 0.25 * toIndex * glm::transpose(toIndex);
   const std::size_t count = static_cast<std::size_t>(dims_.x) * static_cast<std::size_t>(dims_.y);
   for (auto& slice : slices_) slice.resize(count);
-  squares_.resize(static_cast<std::size_t>(dims_.x));
+  differences_.resize(static_cast<std::size_t>(dims_.x));
 }
 
 double GradientSurvey::largest() const {
@@ -61,54 +63,70 @@ double GradientSurvey::largest() const {
 }
 
 void GradientSurvey::addSlice(int z, std::span<const std::byte> voxels) {
-  std::vector<float>& values = slice(z);
-  widenToFloat(type_, voxels, values);
-  if (type_ == VoxelType::kF32) {
-    // Written so that NaN stays NaN.
-    for (float& value : values) {
-      value = value < lowest_ ? lowest_ : value;
-      value = value > highest_ ? highest_ : value;
-    }
-  }
+  widenToFloat(type_, voxels, lowest_, highest_, slice(z));
   if (z - 1 >= firstZ_ && z - 1 < lastZ_) measureSlice(z - 1);
   if (z == dims_.z - 1 && z >= firstZ_ && z < lastZ_) measureSlice(z);
 }
 
 void GradientSurvey::measureSlice(int z) {
-  const auto width = static_cast<std::size_t>(dims_.x);
-  const float* here = slice(z).data();
-  const float* below = slice(std::max(z - 1, 0)).data();
-  const float* above = slice(std::min(z + 1, dims_.z - 1)).data();
   for (int y = 0; y < dims_.y; ++y) {
-    const auto row = static_cast<std::size_t>(y) * width;
-    const auto rowBelow = static_cast<std::size_t>(std::max(y - 1, 0)) * width;
-    const auto rowAbove = static_cast<std::size_t>(std::min(y + 1, dims_.y - 1)) * width;
-    measureRow(here + row, here + rowBelow, here + rowAbove, below + row, above + row);
+    differencesAlongX(row(y, z));
+    addPair(row(y + 1, z), row(y - 1, z), {1, 0}, weights_.face, weights_.edge);
+    addPair(row(y, z + 1), row(y, z - 1), {0, 1}, weights_.face, weights_.edge);
+    if (weights_.edge > 0) {
+      addPair(row(y + 1, z + 1), row(y - 1, z - 1), {1, 1}, weights_.edge, weights_.corner);
+      addPair(row(y - 1, z + 1), row(y + 1, z - 1), {-1, 1}, weights_.edge, weights_.corner);
+    }
+    countMagnitudes();
   }
 }
 
-void GradientSurvey::measureRow(Row here, Row yBelow, Row yAbove, Row zBelow, Row zAbove) {
+GradientSurvey::Row GradientSurvey::row(int y, int z) {
+  const auto number = static_cast<std::size_t>(std::clamp(y, 0, dims_.y - 1));
+  return slice(std::clamp(z, 0, dims_.z - 1)).data() + number * differences_.size();
+}
+
+template <typename Work>
+void GradientSurvey::forNeighbours(Work&& work) const {
+  const std::size_t last = differences_.size() - 1;
+  work(std::size_t{0}, std::size_t{0}, std::min<std::size_t>(1, last));
+  for (std::size_t x = 1; x < last; ++x) work(x, x - 1, x + 1);
+  if (last > 0) work(last, last - 1, last);
+}
+
+void GradientSurvey::differencesAlongX(Row here) {
+  forNeighbours([&](std::size_t x, std::size_t below, std::size_t above) {
+    const double centre = double{here[x]} - double{here[x]};  // 0, or NaN at a NaN voxel
+    const double difference = double{here[above]} - double{here[below]};
+    differences_[x] = {weights_.face * difference + centre, 0, 0};
+  });
+}
+
+void GradientSurvey::addPair(Row above, Row below, const glm::dvec2& direction, double straight,
+                             double oblique) {
+  forNeighbours([&](std::size_t x, std::size_t xBelow, std::size_t xAbove) {
+    double across = straight * (double{above[x]} - double{below[x]});
+    double along = 0;
+    if (oblique > 0) {
+      const double rising = double{above[xAbove]} - double{below[xBelow]};
+      const double falling = double{above[xBelow]} - double{below[xAbove]};
+      across += oblique * (rising + falling);
+      along = oblique * (rising - falling);
+    }
+    differences_[x] += glm::dvec3{along, direction * across};
+  });
+}
+
+void GradientSurvey::countMagnitudes() {
   const double xx = metric_[0][0], yy = metric_[1][1], zz = metric_[2][2];
   const double xy = 2 * metric_[0][1], xz = 2 * metric_[0][2], yz = 2 * metric_[1][2];
-  double* squares = squares_.data();
-  const auto square = [&](std::size_t x, std::size_t xBelow, std::size_t xAbove) {
-    const double dx = double{here[xAbove]} - double{here[xBelow]};
-    const double dy = double{yAbove[x]} - double{yBelow[x]};
-    const double dz = double{zAbove[x]} - double{zBelow[x]};
-    const double centre = double{here[x]} - double{here[x]};  // 0, or NaN at a NaN voxel
-    squares[x] =
-        dx * (xx * dx + xy * dy + xz * dz) + dy * (yy * dy + yz * dz) + zz * dz * dz + centre;
-  };
-  const std::size_t last = squares_.size() - 1;
-  square(0, 0, std::min<std::size_t>(1, last));
-  for (std::size_t x = 1; x < last; ++x) square(x, x - 1, x + 1);
-  if (last > 0) square(last, last - 1, last);
-
-  for (const double value : squares_) {
-    if (!(value <= std::numeric_limits<double>::max())) continue;
-    largestSquare_ = std::max(largestSquare_, value);
+  for (const glm::dvec3& d : differences_) {
+    const double square =
+        d.x * (xx * d.x + xy * d.y + xz * d.z) + d.y * (yy * d.y + yz * d.z) + zz * d.z * d.z;
+    if (!(square <= std::numeric_limits<double>::max())) continue;
+    largestSquare_ = std::max(largestSquare_, square);
     // A float holds magnitudes up to 3e38; larger ones share the last bin.
-    const double magnitude = std::sqrt(std::max(value, 0.0));
+    const double magnitude = std::sqrt(std::max(square, 0.0));
     histogram_.add(
         static_cast<float>(std::min(magnitude, double{std::numeric_limits<float>::max()})));
   }

@@ -5,7 +5,9 @@
 #include <span>
 #include <vector>
 
+#include "burin/common/gradient_operator.hpp"
 #include "burin/node/brick_source.hpp"
+#include "operator_weights.hpp"
 
 namespace burin::node {
 
@@ -25,15 +27,18 @@ class MagnitudeHistogram {
   std::vector<std::int64_t> counts_;
 };
 
-/// Gradient magnitudes in world units, by central differences, of z slices that come in ascending
-/// order: those of the slices [firstZ, lastZ), whose neighbours come too.
+/// Gradient magnitudes in world units, by one operator, of z slices that come in ascending order:
+/// those of the slices [firstZ, lastZ), whose neighbours come too.
 class GradientSurvey {
  public:
   /// Values are clamped to [lowest, highest], which takes infinities to the finite ends.
-  GradientSurvey(const VolumeInfo& info, int firstZ, int lastZ, float lowest, float highest);
+  GradientSurvey(GradientOperator which, const VolumeInfo& info, int firstZ, int lastZ,
+                 float lowest, float highest);
 
-  /// Slice z, whole in x and y, of the source's type; z runs from max(firstZ - 1, 0) to
-  /// min(lastZ, dims.z - 1).
+  GradientOperator which() const { return which_; }
+
+  /// Slice z, whole in x and y, of the source's type; z runs from max(firstZ - 1, 0) or before to
+  /// min(lastZ, dims.z - 1) or beyond.
   void addSlice(int z, std::span<const std::byte> voxels);
 
   MagnitudeHistogram& histogram() { return histogram_; }
@@ -43,8 +48,20 @@ class GradientSurvey {
   using Row = const float*;
   std::vector<float>& slice(int z) { return slices_[static_cast<std::size_t>(z % 3)]; }
   void measureSlice(int z);
-  void measureRow(Row here, Row yBelow, Row yAbove, Row zBelow, Row zAbove);
+  /// Row y of slice z, both clamped at the volume.
+  Row row(int y, int z);
+  /// work(x, x - 1, x + 1) for a row, neighbours clamped at the volume.
+  template <typename Work>
+  void forNeighbours(Work&& work) const;
+  /// Begins a row's differences: those of the neighbours along x.
+  void differencesAlongX(Row here);
+  /// Adds what a pair of opposite rows says, `direction` (y, z) from one to the other: `straight`
+  /// the weight of neighbours at the same x, `oblique` of those beside it.
+  void addPair(Row above, Row below, const glm::dvec2& direction, double straight, double oblique);
+  void countMagnitudes();
 
+  GradientOperator which_;
+  OperatorWeights weights_;
   VoxelType type_;
   glm::ivec3 dims_;
   int firstZ_;
@@ -53,7 +70,7 @@ class GradientSurvey {
   float highest_;
   glm::dmat3 metric_;  ///< |∇f|² = gᵀ·metric·g for differences g across two voxels
   std::array<std::vector<float>, 3> slices_;
-  std::vector<double> squares_;  ///< one row's; NaN where the gradient is not defined
+  std::vector<glm::dvec3> differences_;  ///< one row's; NaN where the gradient is not defined
   double largestSquare_ = 0;
   MagnitudeHistogram histogram_;
 };

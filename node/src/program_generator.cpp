@@ -7,6 +7,7 @@
 
 #include "burin/common/error.hpp"
 #include "curve_code.hpp"
+#include "operator_weights.hpp"
 
 namespace burin::node {
 namespace {
@@ -87,10 +88,42 @@ ParameterCode parameterCode(const StyleSettings& settings, const StyleSpec& styl
   return code;
 }
 
+/// Whether operators look at more than the six face neighbours.
+bool needsNeighbourhood(const GradientOperatorSet& operators) {
+  return !GradientOperatorSet{GradientOperator::kCentral}.contains(operators);
+}
+
 std::string normalOrientation(const StyleSettings* gradient) {
   const std::string word = gradient == nullptr ? "outward" : gradient->word("normal");
   if (word == "inward") return "kNormalInward";
   return word == "facing" ? "kNormalFacing" : "kNormalOutward";
+}
+
+/// Of a gradient by that operator; what the generated code calls it.
+std::string gradientName(GradientOperator which) {
+  if (which == GradientOperator::kSobel) return "sobelGradient";
+  return which == GradientOperator::kRegression ? "regressionGradient" : "centralGradient";
+}
+
+/// Statements for the gradients of a scene and their magnitudes, each operator's once.
+/// `toGradient`: the matrix that makes a gradient of differences.
+std::string gradientCode(const GradientOperatorSet& operators, const std::string& toGradient) {
+  std::string text;
+  const bool facesAlone = !needsNeighbourhood(operators);
+  if (!facesAlone) text += "  Neighbourhood around = neighbourhoodAt(coordinate);\n";
+  for (const GradientOperator which : kAllGradientOperators) {
+    if (!operators.contains(which)) continue;
+    const OperatorWeights weights = operatorWeights(which);
+    std::string differences = "volumeDifferences(coordinate)";
+    if (!facesAlone)
+      differences = which == GradientOperator::kCentral
+                        ? "(around.facesValid * around.faces)"
+                        : fmt::format("weighted(around, vec3({:.9g}, {:.9g}, {:.9g}))",
+                                      weights.face, weights.edge, weights.corner);
+    text += fmt::format("  vec3 {0} = {1} * {2};\n  float {0}Magnitude = length({0});\n",
+                        gradientName(which), toGradient, differences);
+  }
+  return text;
 }
 
 /// Everything generated for the layers, in the order in which it must appear.
@@ -98,7 +131,9 @@ class LayerCode {
  public:
   /// All passes in one, or one of them.
   LayerCode(const Scene& scene, std::optional<LayerPass> pass)
-      : scene_{scene}, pass_{pass}, gradient_{gradientNeeded(scene)} {
+      : scene_{scene},
+        pass_{pass},
+        gradients_{gradientOperatorsNeeded(scene)} {
     for (std::size_t i = 0; i < scene.layers.size(); ++i) add(i);
   }
 
@@ -190,8 +225,9 @@ class LayerCode {
     const std::string floor =
         keepUniform("float", parameterUniform(i, "gradient", "noise_floor"), uniforms_, prepare_);
     const std::string unit = keepUniform("float", magnitudeUniform(i), uniforms_, prepare_);
-    body_ += fmt::format("    Surface g = surfaceOf(gradient, magnitude * {}, {}, {}, toEye);\n",
-                         unit, floor, normalOrientation(layer.style("gradient")));
+    body_ += fmt::format("    Surface g = surfaceOf({0}, {0}Magnitude * {1}, {2}, {3}, toEye);\n",
+                         gradientName(gradientOperator(layer)), unit, floor,
+                         normalOrientation(layer.style("gradient")));
   }
 
   void addStyles(std::size_t i, const Layer& layer) {
@@ -252,7 +288,7 @@ class LayerCode {
     std::string text;
     std::string prepare = prepare_ + curves_.prepare();
     const std::string toGradient =
-        gradient_ ? keepUniform("mat3", "differencesToGradient", text, prepare) : "";
+        gradients_.empty() ? "" : keepUniform("mat3", "differencesToGradient", text, prepare);
     text += "void prepareLayers() {\n" + prepare + "}\n";
     if (preintegrated)
       text += "void classifySide(inout Side side) {\n" + ends_ + "}\n#include \"sides.glsl\"\n";
@@ -264,11 +300,7 @@ class LayerCode {
     text += fmt::format(
         "void shade(vec3 coordinate, {}vec3 toEye, out vec3 colour, out float extinction) {{\n",
         preintegrated ? "Side front, Side back, " : "");
-    if (gradient_)
-      text += fmt::format(
-          "  vec3 gradient = {} * volumeDifferences(coordinate);\n"
-          "  float magnitude = length(gradient);\n",
-          toGradient);
+    text += gradientCode(gradients_, toGradient);
     text += "  colour = vec3(0.0);\n  extinction = 0.0;\n" + body_;
     if (!pass_) text += "  if (extinction > 0.0) colour *= 1.0 / extinction;\n";
     return text + "}\n";
@@ -276,7 +308,7 @@ class LayerCode {
 
   const Scene& scene_;
   std::optional<LayerPass> pass_;
-  bool gradient_;
+  GradientOperatorSet gradients_;
   CurveCode curves_;
   std::size_t classes_ = 0;
   std::string uniforms_, prepare_, ends_, classify_, beyond_, total_, body_;
@@ -333,6 +365,8 @@ std::string programHead(const Scene& scene, const ProgramOptions& options,
   for (const char* file : {"lattice.glsl", "ownership.glsl", "opacity.glsl", "volume.glsl",
                            "skip.glsl", "shading.glsl"})
     text += fmt::format("#include \"{}\"\n", file);
+  if (needsNeighbourhood(gradientOperatorsNeeded(scene)))
+    text += "#include \"neighbourhood.glsl\"\n";
   if (scene.quality.preintegrated) text += "#include \"preintegration.glsl\"\n";
   return text + LayerCode{scene, pass}.text();
 }

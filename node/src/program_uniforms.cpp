@@ -63,9 +63,12 @@ glm::vec4 placeOf(const StyleSettings& style, const Camera& camera, const Volume
 }
 
 /// World gradient magnitude that counts as 1 in a program before a layer's own scale.
-double gradientUnit(const GradientScales& gradients) {
-  if (gradients.percentile > 0) return gradients.percentile;
-  return gradients.maximum > 0 ? gradients.maximum : 1.0;
+double gradientUnit(const PerGradientOperator<GradientScales>& gradients) {
+  for (const GradientOperator which : kAllGradientOperators)
+    if (gradients[which].percentile > 0) return gradients[which].percentile;
+  for (const GradientOperator which : kAllGradientOperators)
+    if (gradients[which].maximum > 0) return gradients[which].maximum;
+  return 1;
 }
 
 void setTransferUniforms(const GlProgram& program, const TransferTable& table,
@@ -86,14 +89,15 @@ void setColourCurve(const GlProgram& program, const std::string& uniform,
   program.set(rampsUniform(uniform), colourRamps(curve));
 }
 
-void setStyleUniforms(const GlProgram& program, const Layer& layer, const GradientScales& gradients,
-                      std::size_t number) {
+void setStyleUniforms(const GlProgram& program, const Layer& layer,
+                      const PerGradientOperator<GradientScales>& gradients, std::size_t number) {
   const StyleSettings gradient = [&] {
     const StyleSettings* own = layer.style("gradient");
     return own != nullptr ? *own : defaultSettings(*findStyle("gradient"));
   }();
   const bool byMaximum = gradient.word("magnitude") == "maximum";
-  const double unit = byMaximum ? gradients.maximum : gradients.percentile;
+  const GradientScales& scales = gradients[gradientOperator(layer)];
+  const double unit = byMaximum ? scales.maximum : scales.percentile;
   program.set(magnitudeUniform(number),
               static_cast<float>(unit > 0 ? gradientUnit(gradients) / unit : 0.0));
   program.set(parameterUniform(number, "gradient", "noise_floor"),

@@ -5,24 +5,18 @@
 #include "brick.hpp"
 #include "burin/common/camera.hpp"
 #include "burin/common/scene.hpp"
+#include "burin/node/survey.hpp"
 #include "gl_program.hpp"
 #include "transfer_table.hpp"
 #include "value_scale.hpp"
 
 namespace burin::node {
 
-/// World gradient magnitude (data units) that counts as m = 1, by percentile and by maximum; 0
-/// where the volume has no gradients.
-struct GradientScales {
-  double percentile = 0;
-  double maximum = 0;
-};
-
 /// What every program that draws a volume knows of it.
 struct ProgramVolume {
   VolumeGrid grid;
   ValueScale scale;
-  GradientScales gradients;
+  PerGradientOperator<GradientScales> gradients;
 };
 
 inline constexpr GLuint kVolumeUnit = 0;

@@ -40,7 +40,7 @@ double difference(const Span& a, const Span& b) {
 }  // namespace
 
 struct ReferenceRenderer::State {
-  State(const Scene& givenScene, BrickSource& source, const std::optional<double>& gradientScale);
+  State(const Scene& givenScene, BrickSource& source, const ReferenceScales& scales);
 
   /// A ray in index space.
   struct Path {
@@ -68,11 +68,11 @@ struct ReferenceRenderer::State {
 };
 
 ReferenceRenderer::State::State(const Scene& givenScene, BrickSource& source,
-                                const std::optional<double>& gradientScale)
+                                const ReferenceScales& scales)
     : scene{givenScene},
       volume{source},
       stepWorld{scene.quality.stepVoxels * volume.grid().smallestSpacing()} {
-  ReferenceGradientScale scale{volume, gradientScale};
+  ReferenceGradientScale scale{volume, scales.gradients};
   for (const Layer& layer : scene.layers) layers.emplace_back(layer, scale);
 }
 
@@ -87,13 +87,15 @@ Classified ReferenceRenderer::State::sampleOf(const glm::dvec3& begin, const glm
   const double front = preintegrated ? volume.valueAt(begin).value_or(*value) : *value;
   const double back = preintegrated ? volume.valueAt(end).value_or(*value) : *value;
   const glm::dvec3 world = volume.grid().worldFromIndex(index);
-  std::optional<glm::dvec3> gradient;  // of the volume: the same for all layers
+  PerGradientOperator<std::optional<glm::dvec3>> gradients;  // of the volume: for all layers
   for (const ReferenceLayer& layer : layers) {
     const ReferenceClass classes =
         preintegrated ? layer.classify(front, back) : layer.classify(*value);
     // No style adds extinction where the transfer functions give none.
     if (!classes.shows()) continue;
-    if (layer.needsGradient() && !gradient) gradient = volume.gradientAt(index);
+    std::optional<glm::dvec3>& gradient = gradients[layer.gradientOperatorUsed()];
+    if (layer.needsGradient() && !gradient)
+      gradient = volume.gradientAt(index, layer.gradientOperatorUsed());
     const Classified sample = layer.shade(classes, gradient.value_or(glm::dvec3{0}), world, view);
     mixture.colour += sample.extinction * sample.colour;
     mixture.extinction += sample.extinction;
@@ -180,9 +182,17 @@ glm::dvec4 ReferenceRenderer::State::trace(const ReferenceRay& ray,
   return {sum.colour, sum.opacity};
 }
 
+ReferenceScales surveyedScales(const VolumeSurvey& survey, const Scene& scene) {
+  ReferenceScales scales;
+  const GradientOperatorSet needed = gradientOperatorsNeeded(scene);
+  for (const GradientOperator which : kAllGradientOperators)
+    if (needed.contains(which)) scales.gradients[which] = survey.gradients[which].percentile;
+  return scales;
+}
+
 ReferenceRenderer::ReferenceRenderer(const Scene& scene, BrickSource& source,
-                                     std::optional<double> gradientScale)
-    : state_{std::make_unique<State>(scene, source, gradientScale)} {}
+                                     const ReferenceScales& scales)
+    : state_{std::make_unique<State>(scene, source, scales)} {}
 
 ReferenceRenderer::~ReferenceRenderer() = default;
 

@@ -88,7 +88,9 @@ void ReferenceLayer::readGradientSettings(const Layer& layer, ReferenceGradientS
   orientation_ = normal == "inward"   ? Orientation::kInward
                  : normal == "facing" ? Orientation::kFacing
                                       : Orientation::kOutward;
-  gradientScale_ = settings.word("magnitude") == "maximum" ? scale.maximum() : scale.percentile();
+  operator_ = gradientOperator(layer);
+  gradientScale_ = settings.word("magnitude") == "maximum" ? scale.maximum(operator_)
+                                                           : scale.percentile(operator_);
 }
 
 ReferenceClass ReferenceLayer::classify(double value) const {

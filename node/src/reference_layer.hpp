@@ -26,12 +26,14 @@ class ReferenceLayer {
 
   bool needsGradient() const;
 
+  GradientOperator gradientOperatorUsed() const { return operator_; }
+
   /// The transfer function alone: of one value, or the mean over the values between two.
   ReferenceClass classify(double value) const;
   ReferenceClass classify(double front, double back) const;
 
-  /// What the styles make of it; `gradient` in world units, ignored if none needs it; `world`:
-  /// where.
+  /// What the styles make of it; `gradient` in world units, by the layer's operator,
+  /// ignored if none needs it; `world`: where.
   Classified shade(const ReferenceClass& classes, const glm::dvec3& gradient,
                    const glm::dvec3& world, const ReferenceView& view) const;
 
@@ -96,6 +98,7 @@ class ReferenceLayer {
   ReferenceMeanClass means_;
   std::optional<TransferFunction> lineFunction_;  ///< pass II's own
   std::optional<ReferenceMeanClass> lineMeans_;
+  GradientOperator operator_ = GradientOperator::kCentral;
   double noiseFloor_ = 0;
   double gradientScale_ = 0;
   Orientation orientation_ = Orientation::kOutward;

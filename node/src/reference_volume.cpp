@@ -55,20 +55,58 @@ class Corners {
   std::size_t rowsPerSlice_;
 };
 
-/// Central differences at a voxel, per index unit, its neighbours clamped at the volume's border.
-/// NaN if a neighbour is.
-template <typename T>
-glm::dvec3 gradientAtVoxel(const std::vector<T>& voxels, const glm::ivec3& at,
-                           const glm::ivec3& dims) {
-  const std::size_t strides[3] = {1, size(dims.x), size(dims.x) * size(dims.y)};
-  const std::size_t here = size(at.x) + strides[1] * size(at.y) + strides[2] * size(at.z);
+/// What value(offset), offset in {-1, 0, 1}³, says of the gradient in the middle, per index unit.
+template <typename Value>
+glm::dvec3 centralGradient(const Value& value) {
   glm::dvec3 gradient{0};
   for (int axis = 0; axis < 3; ++axis) {
-    const std::size_t above = here + (at[axis] + 1 < dims[axis] ? strides[axis] : 0);
-    const std::size_t below = here - (at[axis] > 0 ? strides[axis] : 0);
-    gradient[axis] = (static_cast<double>(voxels[above]) - static_cast<double>(voxels[below])) / 2;
+    glm::ivec3 step{0};
+    step[axis] = 1;
+    gradient[axis] = (value(step) - value(-step)) / 2;
   }
   return gradient;
+}
+
+template <typename Value>
+glm::dvec3 sobelGradient(const Value& value) {
+  glm::dvec3 gradient{0};
+  for (int axis = 0; axis < 3; ++axis)
+    for (int u = -1; u <= 1; ++u)
+      for (int v = -1; v <= 1; ++v) {
+        glm::ivec3 step{0};
+        step[axis] = 1;
+        glm::ivec3 aside{0};
+        aside[(axis + 1) % 3] = u;
+        aside[(axis + 2) % 3] = v;
+        const double weight = (u == 0 ? 0.5 : 0.25) * (v == 0 ? 0.5 : 0.25);
+        gradient[axis] += weight * (value(aside + step) - value(aside - step)) / 2;
+      }
+  return gradient;
+}
+
+/// Over a symmetric neighbourhood the normal equations are diagonal: Σ w o f / Σ w o².
+template <typename Value>
+glm::dvec3 regressionGradient(const Value& value) {
+  glm::dvec3 moments{0};
+  glm::dvec3 squares{0};
+  for (int z = -1; z <= 1; ++z)
+    for (int y = -1; y <= 1; ++y)
+      for (int x = -1; x <= 1; ++x) {
+        const glm::ivec3 offset{x, y, z};
+        if (offset == glm::ivec3{0}) continue;
+        const glm::dvec3 o{offset};
+        const double weight = 1 / glm::length(o);
+        moments += weight * value(offset) * o;
+        squares += weight * o * o;
+      }
+  return moments / squares;
+}
+
+template <typename Value>
+glm::dvec3 gradientOf(const Value& value, GradientOperator which) {
+  if (which == GradientOperator::kSobel) return sobelGradient(value);
+  return which == GradientOperator::kRegression ? regressionGradient(value)
+                                                : centralGradient(value);
 }
 
 template <typename T>
@@ -118,6 +156,13 @@ void ReferenceVolume::cleanFloats() {
   }
 }
 
+double ReferenceVolume::voxelAt(const glm::ivec3& index) const {
+  const glm::ivec3 c = glm::clamp(index, glm::ivec3{0}, grid_.dims - 1);
+  const std::size_t at =
+      size(c.x) + size(grid_.dims.x) * (size(c.y) + size(grid_.dims.y) * size(c.z));
+  return std::visit([at](const auto& voxels) { return static_cast<double>(voxels[at]); }, voxels_);
+}
+
 std::optional<double> ReferenceVolume::valueAt(const glm::dvec3& index) const {
   const Corners corners{index, grid_.dims};
   return std::visit(
@@ -142,37 +187,28 @@ std::optional<double> ReferenceVolume::valueAt(const glm::dvec3& index) const {
       voxels_);
 }
 
-glm::dvec3 ReferenceVolume::gradientAt(const glm::dvec3& index) const {
-  glm::dvec3 perIndex{0};
-  for (int axis = 0; axis < 3; ++axis) {
-    glm::dvec3 above = index;
-    glm::dvec3 below = index;
-    above[axis] += 1;
-    below[axis] -= 1;
-    const auto upper = valueAt(above);
-    const auto lower = valueAt(below);
-    if (!upper || !lower) return glm::dvec3{0};
-    perIndex[axis] = (*upper - *lower) / 2;
-  }
+glm::dvec3 ReferenceVolume::gradientAt(const glm::dvec3& index, GradientOperator which) const {
+  constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
+  const auto value = [&](const glm::ivec3& offset) {
+    return valueAt(index + glm::dvec3{offset}).value_or(kMissing);
+  };
+  const glm::dvec3 perIndex = gradientOf(value, which);
+  if (glm::any(glm::isnan(perIndex))) return glm::dvec3{0};
   return worldFromIndexGradient_ * perIndex;
 }
 
-std::vector<double> ReferenceVolume::gradientMagnitudes() const {
+std::vector<double> ReferenceVolume::gradientMagnitudes(GradientOperator which) const {
   std::vector<double> magnitudes;
   magnitudes.reserve(grid_.voxelCount());
-  std::visit(
-      [&](const auto& voxels) {
-        std::size_t here = 0;
-        for (int k = 0; k < grid_.dims.z; ++k)
-          for (int j = 0; j < grid_.dims.y; ++j)
-            for (int i = 0; i < grid_.dims.x; ++i, ++here) {
-              if (std::isnan(static_cast<double>(voxels[here]))) continue;
-              const glm::dvec3 gradient = gradientAtVoxel(voxels, {i, j, k}, grid_.dims);
-              const double magnitude = glm::length(worldFromIndexGradient_ * gradient);
-              if (!std::isnan(magnitude)) magnitudes.push_back(magnitude);
-            }
-      },
-      voxels_);
+  for (int k = 0; k < grid_.dims.z; ++k)
+    for (int j = 0; j < grid_.dims.y; ++j)
+      for (int i = 0; i < grid_.dims.x; ++i) {
+        const glm::ivec3 here{i, j, k};
+        if (std::isnan(voxelAt(here))) continue;
+        const auto value = [&](const glm::ivec3& offset) { return voxelAt(here + offset); };
+        const double magnitude = glm::length(worldFromIndexGradient_ * gradientOf(value, which));
+        if (!std::isnan(magnitude)) magnitudes.push_back(magnitude);
+      }
   return magnitudes;
 }
 

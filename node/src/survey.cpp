@@ -26,15 +26,15 @@ SliceShare shareOf(const Communicator& comm, int slices) {
 }
 
 /// Collective. Calls work(z, slice) for each of this rank's slices in ascending order, and for the
-/// slices next to them if they have neighbours.
+/// `neighbours` slices next to them on either side, as far as there are any.
 template <typename Work>
 void forSlices(const Communicator& comm, BrickSource& source, const SliceShare& share,
-               bool withNeighbours, Work&& work) {
+               int neighbours, Work&& work) {
   const glm::ivec3 dims = source.info().grid.dims;
   IndexBox mine{{0, 0, share.first}, {dims.x, dims.y, share.last}};
-  if (withNeighbours && !mine.empty()) {
-    mine.lo.z = std::max(mine.lo.z - 1, 0);
-    mine.hi.z = std::min(mine.hi.z + 1, dims.z);
+  if (!mine.empty()) {
+    mine.lo.z = std::max(mine.lo.z - neighbours, 0);
+    mine.hi.z = std::min(mine.hi.z + neighbours, dims.z);
   }
   readSlabs(comm, source, std::span{&mine, 1}, [&](const Slab& slab) {
     const std::size_t sliceBytes = slab.voxels.size() / static_cast<std::size_t>(slab.box.size().z);
@@ -72,45 +72,76 @@ void mergeRanges(const Communicator& comm, VolumeSurvey& survey) {
   survey.highest = double{highest};
 }
 
-void mergeGradients(const Communicator& comm, GradientSurvey& gradients, VolumeSurvey& survey) {
-  double largest = gradients.largest();
-  allReduce(comm, std::span{&largest, 1}, MPI_MAX);
-  allReduce(comm, gradients.histogram().counts(), MPI_SUM);
-  survey.largestGradient = largest;
-  survey.gradient999 = gradients.histogram().percentile(0.999);
-}
+/// What is asked for of derivatives, of this rank's slices.
+class DerivativeSurveys {
+ public:
+  DerivativeSurveys() = default;
+  DerivativeSurveys(const SurveyRequest& request, const VolumeInfo& info, const SliceShare& share,
+                    float lowest, float highest) {
+    for (const GradientOperator which : kAllGradientOperators)
+      if (request.gradients.contains(which))
+        gradients_.emplace_back(which, info, share.first, share.last, lowest, highest);
+  }
+
+  /// Slices beyond this rank's own that they look at.
+  int reach() const { return gradients_.empty() ? 0 : 1; }
+
+  void addSlice(int z, std::span<const std::byte> voxels) {
+    for (GradientSurvey& gradients : gradients_) gradients.addSlice(z, voxels);
+  }
+
+  /// Collective.
+  void merge(const Communicator& comm, VolumeSurvey& survey) {
+    for (GradientSurvey& gradients : gradients_) {
+      GradientScales& scales = survey.gradients[gradients.which()];
+      scales.maximum = gradients.largest();
+      allReduce(comm, std::span{&scales.maximum, 1}, MPI_MAX);
+      scales.percentile = percentile999(comm, gradients.histogram());
+    }
+  }
+
+ private:
+  static double percentile999(const Communicator& comm, MagnitudeHistogram& histogram) {
+    allReduce(comm, histogram.counts(), MPI_SUM);
+    return histogram.percentile(0.999);
+  }
+
+  std::vector<GradientSurvey> gradients_;
+};
 
 }  // namespace
 
-VolumeSurvey surveyVolume(const Communicator& comm, BrickSource& source, bool withGradients) {
+VolumeSurvey surveyVolume(const Communicator& comm, BrickSource& source,
+                          const SurveyRequest& request) {
   const VolumeInfo& info = source.info();
   const SliceShare share = shareOf(comm, info.grid.dims.z);
   constexpr float kLargest = std::numeric_limits<float>::max();
   std::unique_ptr<RangeSurvey> ranges;
-  std::optional<GradientSurvey> gradients;
+  DerivativeSurveys derivatives;
   // Room for slices and blocks, of which a large volume needs much.
   collectively(comm, "making room for the survey", [&] {
     ranges = makeRangeSurvey(info);
-    if (withGradients) gradients.emplace(info, share.first, share.last, -kLargest, kLargest);
+    derivatives = {request, info, share, -kLargest, kLargest};
   });
-  forSlices(comm, source, share, withGradients, [&](int z, std::span<const std::byte> voxels) {
-    if (z >= share.first && z < share.last) ranges->addSlice(z, voxels);
-    if (gradients) gradients->addSlice(z, voxels);
-  });
+  forSlices(comm, source, share, derivatives.reach(),
+            [&](int z, std::span<const std::byte> voxels) {
+              if (z >= share.first && z < share.last) ranges->addSlice(z, voxels);
+              derivatives.addSlice(z, voxels);
+            });
   VolumeSurvey survey;
   ranges->finish(survey);
   mergeRanges(comm, survey);
-  if (!withGradients) return survey;
+  if (derivatives.reach() == 0) return survey;
   if (survey.infiniteCount > 0) {
     // Only now is it known where infinities are clamped to: the gradients once more.
     collectively(comm, "making room for the survey", [&] {
-      gradients.emplace(info, share.first, share.last, static_cast<float>(survey.lowest),
-                        static_cast<float>(survey.highest));
+      derivatives = {request, info, share, static_cast<float>(survey.lowest),
+                     static_cast<float>(survey.highest)};
     });
-    forSlices(comm, source, share, true,
-              [&](int z, std::span<const std::byte> voxels) { gradients->addSlice(z, voxels); });
+    forSlices(comm, source, share, derivatives.reach(),
+              [&](int z, std::span<const std::byte> voxels) { derivatives.addSlice(z, voxels); });
   }
-  mergeGradients(comm, *gradients, survey);
+  derivatives.merge(comm, survey);
   return survey;
 }
 

@@ -15,4 +15,14 @@ void widenToFloat(VoxelType type, std::span<const std::byte> voxels, std::span<f
   });
 }
 
+void widenToFloat(VoxelType type, std::span<const std::byte> voxels, float lowest, float highest,
+                  std::span<float> out) {
+  widenToFloat(type, voxels, out);
+  if (type != VoxelType::kF32) return;
+  for (float& value : out) {
+    value = value < lowest ? lowest : value;  // comparisons with NaN are false
+    value = value > highest ? highest : value;
+  }
+}
+
 }  // namespace burin::node

@@ -40,5 +40,8 @@ T voxelAt(const std::byte* voxels, std::size_t index) {
 
 /// Voxel bytes as floats, exact for all four types. `voxels` holds out.size() of them.
 void widenToFloat(VoxelType type, std::span<const std::byte> voxels, std::span<float> out);
+/// The same clamped to [lowest, highest], which takes infinities to the finite ends; NaN stays NaN.
+void widenToFloat(VoxelType type, std::span<const std::byte> voxels, float lowest, float highest,
+                  std::span<float> out);
 
 }  // namespace burin::node

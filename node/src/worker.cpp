@@ -91,7 +91,7 @@ struct Worker::State {
   Rank firstOwner{0};   ///< rank of owner 0
   VolumeSurvey survey;  ///< but its blocks, which `blocks` holds
   bool isSurveyed = false;
-  bool hasGradients = false;  ///< the survey's
+  GradientOperatorSet surveyed;  ///< operators that the survey has
   ValueScale scale;
   VisibleBlocks blocks;
   Shown shown;  ///< by the scene
@@ -162,7 +162,8 @@ bool Worker::State::isSplitBadly(const Scene& next, const Shown& what) const {
 /// Whether the bricks hold all that a scene needs. The same answer on every rank.
 bool Worker::State::isLoaded(const Scene& next, const Shown& what) const {
   const int layers = ghostLayers(next, options);
-  if (!isWhole || layers > ghosts || (gradientNeeded(next) && !hasGradients)) return false;
+  if (!isWhole || layers > ghosts || !surveyed.contains(gradientOperatorsNeeded(next)))
+    return false;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const IndexBox needed = neededPart(BrickId{static_cast<std::uint32_t>(i)}, what, layers);
     if (!needed.empty() && !parts[i].contains(needed)) return false;
@@ -178,10 +179,11 @@ std::size_t Worker::State::sharedBytes() const {
 
 /// Collective. The survey, and what follows from it, if the scene needs more than there is.
 void Worker::State::measure() {
-  const bool needed = gradientNeeded(scene);
-  if (isSurveyed && needed <= hasGradients) return;
-  survey = surveyVolume(comm, source, needed);
-  hasGradients = needed;
+  const GradientOperatorSet needed = gradientOperatorsNeeded(scene);
+  if (isSurveyed && surveyed.contains(needed)) return;
+  const GradientOperatorSet all = surveyed | needed;
+  survey = surveyVolume(comm, source, {all});
+  surveyed = all;
   scale = valueScaleOf(source.info().type, survey);
   blocks = VisibleBlocks{survey, scale};
   survey.blocks = {};
@@ -228,8 +230,7 @@ void Worker::State::loadParts() {
       renderer->setScene(scene);
     else
       renderer =
-          makeRenderer(scene, {volume.grid, scale, {survey.gradient999, survey.largestGradient}},
-                       options, mine.size() > 1);
+          makeRenderer(scene, {volume.grid, scale, survey.gradients}, options, mine.size() > 1);
     for (const BrickId id : mine) {
       if (part(id).empty()) continue;
       bricks.emplace_back(id, part(id), ghosts, volume, scale);

@@ -177,5 +177,19 @@ TEST(SceneNeeds, GhostLayersAndGradientsFollowTheStyles) {
   EXPECT_TRUE(gradientNeeded(scene));
 }
 
+TEST(SceneNeeds, GradientOperatorsOfTheLayersThatHaveGradients) {
+  Scene scene;
+  scene.layers.resize(2);
+  StyleSettings sobel = defaultSettings(*findStyle("gradient"));
+  sobel.values[0] = std::string{"sobel"};
+  scene.layers[0].styles = {sobel};
+  scene.layers[1].styles = {defaultSettings(*findStyle("edges"))};
+  EXPECT_EQ(gradientOperator(scene.layers[0]), GradientOperator::kSobel);
+  EXPECT_FALSE(gradientOperatorsNeeded(scene).contains(GradientOperator::kSobel));
+  EXPECT_TRUE(gradientOperatorsNeeded(scene).contains(GradientOperator::kCentral));
+  scene.layers[0].styles.push_back(defaultSettings(*findStyle("tone")));
+  EXPECT_TRUE(gradientOperatorsNeeded(scene).contains(GradientOperator::kSobel));
+}
+
 }  // namespace
 }  // namespace burin

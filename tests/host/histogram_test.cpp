@@ -23,7 +23,7 @@ VolumeGrid gridOf(const glm::ivec3& dims) {
 }
 
 Histogram histogramOf(ArraySource source) {
-  return computeHistogram(world(), source, node::surveyVolume(world(), source, false));
+  return computeHistogram(world(), source, node::surveyVolume(world(), source, {}));
 }
 
 TEST(Histogram, CountsEachValueOfAByteVolume) {

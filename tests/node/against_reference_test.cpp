@@ -63,6 +63,20 @@ TEST(AgainstReference, TwoLayersLightsAndClipPlanes) {
   EXPECT_LE(againstReference(scene, source, camera, {.bricks = 7}).largest, kReferenceBound);
 }
 
+TEST(AgainstReference, AnOperatorForEachLayer) {
+  ArraySource source = smoothVolume(gridOf({30, 33, 28}, {1, 1.4, 0.8}));
+  Scene scene = sceneWithStyle("sobel");
+  scene.imageSize = {48, 40};
+  scene.layers.push_back(sceneWithStyle("regression").layers[0]);
+  scene.layers.push_back(sceneWithStyle("surface").layers[0]);
+  scene.layers[1].transferFunction.points = {
+      {0.1, {200, 30, 200}, 0.1}, {0.45, {90, 255, 20}, 0.3}, {0.52, {0, 0, 0}, 0}};
+  scene = resolved(scene, source);
+  const Camera camera = resolveCamera(scene, {source.info().grid, false});
+  EXPECT_LE(againstReference(scene, source, camera).largest, kReferenceBound);
+  EXPECT_LE(againstReference(scene, source, camera, {.bricks = 7}).largest, kReferenceBound);
+}
+
 TEST(AgainstReference, NanAndInfiniteVoxels) {
   const auto value = [](glm::ivec3 i) {
     const float f = static_cast<float>(smoothField(glm::dvec3{i}));

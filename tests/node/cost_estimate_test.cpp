@@ -15,7 +15,7 @@ TEST(CostEstimate, CountsVisibleBlocksAndAddsUp) {
   test::ArraySource source{grid, [](glm::ivec3 i) { return i.x < 20 ? 0.6f : 0.0f; }};
   Scene scene = test::sceneWithStyle("plain");
   resolveScene(scene, {grid, false});
-  const VolumeSurvey survey = surveyVolume(test::world(), source, false);
+  const VolumeSurvey survey = surveyVolume(test::world(), source, {});
   const ValueScale scale = valueScaleOf(VoxelType::kF32, survey);
   const VisibleBlocks blocks{survey, scale};
   const VisibleValues visible{scene, transferTables(scene, scale), scale};

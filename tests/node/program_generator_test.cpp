@@ -22,6 +22,16 @@ TEST(ProgramGenerator, HoldsOnlyWhatTheSceneUses) {
   const std::string tone = generateRaycastProgram(sceneWithStyle("tone"), {}).text;
   EXPECT_THAT(tone, HasSubstr("apply_tone"));
   EXPECT_THAT(tone, Not(HasSubstr("apply_edges")));
+  EXPECT_THAT(tone, Not(HasSubstr("Neighbourhood")));
+}
+
+TEST(ProgramGenerator, OperatorsAreInItOnce) {
+  Scene scene = sceneWithStyle("edges");
+  scene.layers.push_back(sceneWithStyle("sobel").layers[0]);
+  const std::string both = generateRaycastProgram(scene, {}).text;
+  EXPECT_THAT(both, HasSubstr("vec3 centralGradient ="));
+  EXPECT_THAT(both, HasSubstr("vec3 sobelGradient ="));
+  EXPECT_THAT(both, Not(HasSubstr("regressionGradient")));
 }
 
 TEST(ProgramGenerator, AStyleThatIsNotUsedIsNowhereInTheProgram) {

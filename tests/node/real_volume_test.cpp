@@ -53,7 +53,7 @@ TEST(RealVolume, HasTheKnownRange) {
     EXPECT_EQ(source->info().grid.dims, known.dims);
     EXPECT_EQ(source->info().type, known.type);
     EXPECT_EQ(source->info().grid.spacing, known.spacing);
-    const auto survey = node::surveyVolume(world(), *source, false);
+    const auto survey = node::surveyVolume(world(), *source, {});
     // The table gives six digits.
     EXPECT_NEAR(survey.lowest, known.lowest, 5e-7 * std::abs(known.lowest));
     EXPECT_NEAR(survey.highest, known.highest, 5e-6 * std::abs(known.highest));

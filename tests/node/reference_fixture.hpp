@@ -72,8 +72,9 @@ inline Camera makeCamera(Projection projection, const glm::dvec3& eye, const glm
 inline std::vector<glm::dvec4> draw(const Scene& scene, node::BrickSource& source,
                                     const Camera& camera,
                                     std::optional<double> gradientScale = std::nullopt) {
-  return node::ReferenceRenderer{scene, source, gradientScale}.render(camera, 0,
-                                                                      camera.image.height, 2);
+  node::ReferenceScales scales;
+  scales.gradients.fill(gradientScale);
+  return node::ReferenceRenderer{scene, source, scales}.render(camera, 0, camera.image.height, 2);
 }
 
 inline glm::dvec3 rgb(const glm::dvec4& pixel) {

@@ -22,10 +22,13 @@ void edit(Scene& scene, std::mt19937& random) {
     case 1:
       function.points[0].value = 0.05 * pick(8);
       break;
-    case 2:
+    case 2: {
+      const std::vector<std::string> styles = drawnStyles();
+      const int chosen = pick(static_cast<int>(styles.size()));
       scene.layers[0].styles =
-          sceneWithStyle(drawnStyles()[static_cast<std::size_t>(pick(6))]).layers[0].styles;
+          sceneWithStyle(styles[static_cast<std::size_t>(chosen)]).layers[0].styles;
       break;
+    }
     case 3:
       scene.quality.stepVoxels = 0.5 + 0.75 * pick(4);
       break;

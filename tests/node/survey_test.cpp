@@ -84,8 +84,17 @@ VolumeSurvey plainSurvey(const PlainVolume& volume) {
   return survey;
 }
 
+/// Of a value at that offset, in a fit of a linear function by weighted least squares.
+double weightOf(GradientOperator which, const glm::ivec3& offset) {
+  const double distance = glm::length(glm::dvec3{offset});
+  if (which == GradientOperator::kCentral) return distance == 1 ? 1 : 0;
+  if (which == GradientOperator::kRegression) return 1 / distance;
+  return std::exp2(-distance * distance);  // Sobel's 1-2-1 along each axis
+}
+
 /// |∇f| at every voxel where it is defined, ascending.
-std::vector<double> plainMagnitudes(const PlainVolume& volume, const VolumeSurvey& range) {
+std::vector<double> plainMagnitudes(const PlainVolume& volume, const VolumeSurvey& range,
+                                    GradientOperator which) {
   const glm::dmat3 toWorld = glm::transpose(glm::inverse(volume.grid.indexToWorld()));
   const auto value = [&](const glm::ivec3& i) {
     const double v = volume.at(i);
@@ -93,13 +102,15 @@ std::vector<double> plainMagnitudes(const PlainVolume& volume, const VolumeSurve
   };
   std::vector<double> magnitudes;
   volume.forVoxels([&](const glm::ivec3& i) {
-    glm::dvec3 gradient;
-    for (int axis = 0; axis < 3; ++axis) {
-      glm::ivec3 step{0};
-      step[axis] = 1;
-      gradient[axis] = (value(i + step) - value(i - step)) / 2;
+    glm::dvec3 moments{0}, squares{0};
+    for (int n = 14; n < 27; ++n) {  // 13 is the middle: half of the offsets, the others opposite
+      const glm::ivec3 offset{n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1};
+      const double weight = weightOf(which, offset);
+      if (weight == 0) continue;
+      moments += weight * (value(i + offset) - value(i - offset)) * glm::dvec3{offset};
+      squares += 2 * weight * glm::dvec3{offset * offset};
     }
-    const double magnitude = glm::length(toWorld * gradient);
+    const double magnitude = glm::length(toWorld * (moments / squares));
     if (!std::isnan(magnitude) && !std::isnan(volume.at(i))) magnitudes.push_back(magnitude);
   });
   std::ranges::sort(magnitudes);
@@ -146,21 +157,27 @@ void expectSameRanges(const VolumeSurvey& a, const VolumeSurvey& b) {
   EXPECT_EQ(a.blocks.highest, b.blocks.highest);
 }
 
-void expectGradients(const VolumeSurvey& survey, const std::vector<double>& magnitudes) {
+void expectGradients(const node::GradientScales& scales, const std::vector<double>& magnitudes) {
   if (magnitudes.empty()) {
-    EXPECT_EQ(survey.largestGradient, 0);
-    EXPECT_EQ(survey.gradient999, 0);
+    EXPECT_EQ(scales.maximum, 0);
+    EXPECT_EQ(scales.percentile, 0);
     return;
   }
-  // Both ways: differences of floats are exact to 2^-53 in double, then some ten roundings.
+  // Both ways: differences of floats are exact to 2^-53 in double, then some thirty roundings.
   constexpr double kRelative = 1e-14;
-  EXPECT_NEAR(survey.largestGradient, magnitudes.back(), kRelative * magnitudes.back());
+  EXPECT_NEAR(scales.maximum, magnitudes.back(), kRelative * magnitudes.back());
   const auto rank =
       static_cast<std::size_t>(std::ceil(0.999 * static_cast<double>(magnitudes.size())));
   const double exact = magnitudes[rank - 1];
   // The upper edge of a bin of relative width 2^-10, in single precision (2^-24).
-  EXPECT_GE(survey.gradient999, exact * (1 - 0x1p-23));
-  EXPECT_LE(survey.gradient999, exact * (1 + 0x1p-10) * (1 + 0x1p-23));
+  EXPECT_GE(scales.percentile, exact * (1 - 0x1p-23));
+  EXPECT_LE(scales.percentile, exact * (1 + 0x1p-10) * (1 + 0x1p-23));
+}
+
+GradientOperatorSet allOperators() {
+  GradientOperatorSet all;
+  for (const GradientOperator which : kAllGradientOperators) all.insert(which);
+  return all;
 }
 
 void expectSurvey(const ArraySource& source) {
@@ -168,20 +185,23 @@ void expectSurvey(const ArraySource& source) {
   StreamOf stream{source};
   const PlainVolume plain = plainOf(alone);
   const VolumeSurvey expected = plainSurvey(plain);
-  const auto magnitudes = plainMagnitudes(plain, expected);
   const Communicator self{MPI_COMM_SELF};
-  const VolumeSurvey onOneRank = node::surveyVolume(self, alone, true);
+  const VolumeSurvey onOneRank = node::surveyVolume(self, alone, {allOperators()});
   for (ArraySource* kind : {&alone, static_cast<ArraySource*>(&stream)}) {
-    const VolumeSurvey survey = node::surveyVolume(world(), *kind, true);
+    const VolumeSurvey survey = node::surveyVolume(world(), *kind, {allOperators()});
     expectSameRanges(survey, expected);
-    expectGradients(survey, magnitudes);
-    // The same on any number of ranks, to the last bit.
-    EXPECT_EQ(survey.largestGradient, onOneRank.largestGradient);
-    EXPECT_EQ(survey.gradient999, onOneRank.gradient999);
-    const VolumeSurvey withoutGradients = node::surveyVolume(world(), *kind, false);
+    for (const GradientOperator which : kAllGradientOperators) {
+      expectGradients(survey.gradients[which], plainMagnitudes(plain, expected, which));
+      // The same on any number of ranks, to the last bit.
+      EXPECT_EQ(survey.gradients[which].maximum, onOneRank.gradients[which].maximum);
+      EXPECT_EQ(survey.gradients[which].percentile, onOneRank.gradients[which].percentile);
+    }
+    const VolumeSurvey withoutGradients = node::surveyVolume(world(), *kind, {});
     expectSameRanges(withoutGradients, expected);
-    EXPECT_EQ(withoutGradients.largestGradient, 0);
-    EXPECT_EQ(withoutGradients.gradient999, 0);
+    for (const GradientOperator which : kAllGradientOperators) {
+      EXPECT_EQ(withoutGradients.gradients[which].maximum, 0);
+      EXPECT_EQ(withoutGradients.gradients[which].percentile, 0);
+    }
   }
 }
 
@@ -237,7 +257,7 @@ TEST(Survey, CoarserBlocks) {
     voxels.push_back(static_cast<std::byte>(i * 2654435769u >> 24));
   ArraySource source{{.name = "long", .format = "array", .grid = grid, .type = VoxelType::kU8},
                      voxels};
-  const BlockRanges blocks = surveyVolume(world(), source, false).blocks;
+  const BlockRanges blocks = surveyVolume(world(), source, {}).blocks;
   ASSERT_EQ(blocks.blockCells, 8);
   ASSERT_EQ(blocks.blocks, (glm::ivec3{87'501, 1, 2}));
   int wrong = 0;
@@ -295,21 +315,27 @@ TEST(Survey, ALinearFieldHasOneGradient) {
                        const glm::dvec3 p = grid.worldFromIndex(glm::dvec3{i});
                        return static_cast<float>(3 * p.x + 4 * p.y + 12 * p.z);
                      }};
-  const auto survey = node::surveyVolume(world(), source, true);
-  // The values are multiples of 1/2, exact in float; 1/1.25 is not: a few roundings in double.
-  EXPECT_NEAR(survey.largestGradient, 13, 13 * 0x1p-50);
-  EXPECT_GE(survey.gradient999, 13);
-  EXPECT_LE(survey.gradient999, 13 * (1 + 0x1p-10));
+  const auto survey = node::surveyVolume(world(), source, {allOperators()});
+  for (const GradientOperator which : kAllGradientOperators) {
+    const node::GradientScales& scales = survey.gradients[which];
+    // The values are multiples of 1/2, exact in float, 1/1.25 and the weights are not: some thirty
+    // roundings in double, and the percentile is a float.
+    EXPECT_NEAR(scales.maximum, 13, 13 * 0x1p-48);
+    EXPECT_GE(scales.percentile, 13 * (1 - 0x1p-24));
+    EXPECT_LE(scales.percentile, 13 * (1 + 0x1p-10));
+  }
 }
 
 TEST(Survey, AHomogeneousVolumeHasNoGradient) {
   const auto source =
       node::makeProcedural("homogeneous", {40, 33, 20}, VoxelType::kU8, glm::dvec3{1});
-  const auto survey = node::surveyVolume(world(), *source, true);
+  const auto survey = node::surveyVolume(world(), *source, {allOperators()});
   EXPECT_EQ(survey.lowest, 128);
   EXPECT_EQ(survey.highest, 128);
-  EXPECT_EQ(survey.largestGradient, 0);
-  EXPECT_EQ(survey.gradient999, 0);
+  for (const GradientOperator which : kAllGradientOperators) {
+    EXPECT_EQ(survey.gradients[which].maximum, 0);
+    EXPECT_EQ(survey.gradients[which].percentile, 0);
+  }
 }
 
 /// A source that cannot read a slice.
@@ -325,7 +351,7 @@ class FailingSource : public ArraySource {
 TEST(Survey, AFailureEndsOnAllRanks) {
   FailingSource source;
   try {
-    node::surveyVolume(world(), source, true);
+    node::surveyVolume(world(), source, {allOperators()});
     FAIL() << "nothing thrown";
   } catch (const CollectiveError& error) {
     EXPECT_EQ(error.code(), ExitCode::kVolume);

@@ -31,7 +31,7 @@ class VisibleBlocksTest : public testing::Test {
     scene.layers[0].transferFunction = function;
     scene.clip = clip;
     resolveScene(scene, {grid, false});
-    const VolumeSurvey survey = surveyVolume(test::world(), source, false);
+    const VolumeSurvey survey = surveyVolume(test::world(), source, {});
     const ValueScale scale = valueScaleOf(source.info().type, survey);
     const VisibleBlocks blocks{survey, scale};
     cubes = blocks.cubes();

@@ -30,7 +30,8 @@ inline DrawnAndTrue drawWithReference(const Scene& scene, node::BrickSource& sou
   node::Worker worker{self, scene, source, options};
   RankStatistics statistics;
   DrawnAndTrue both{wholeFrame(worker.draw(camera, statistics)), {}};
-  const node::ReferenceRenderer reference{scene, source, worker.survey().gradient999};
+  const node::ReferenceRenderer reference{scene, source,
+                                          node::surveyedScales(worker.survey(), scene)};
   for (const glm::dvec4& p : reference.render(camera, 0, camera.image.height, 2))
     both.truth.push_back({p.r, p.g, p.b, p.a});
   return both;

@@ -43,8 +43,16 @@ inline std::vector<OpacityPoint> gentleLineOpacity() {
   return {{0.1, 0}, {0.25, 0.3}, {0.4, 0.05}, {0.5, 0}, {0.6, 0}, {0.8, 0.2}};
 }
 
+/// The gradient settings with that operator.
+inline StyleSettings gradientBy(const std::string& gradientOperator) {
+  StyleSettings settings = defaultSettings(*findStyle("gradient"));
+  settings.values.front() = gradientOperator;  // the table's first parameter
+  return settings;
+}
+
 /// One layer, that style alone (none for "plain"; of "line_opacity", which is a layer's own, and
-/// "line_surface" with lines), at 72×56 pixels, no termination.
+/// "line_surface" with lines; of a gradient operator's name: light and edges by it), at 72×56 pixels,
+/// no termination.
 inline Scene sceneWithStyle(const std::string& style) {
   Scene scene;
   scene.volume.procedural = "homogeneous";  // the source is given separately
@@ -62,6 +70,9 @@ inline Scene sceneWithStyle(const std::string& style) {
   } else if (style == "line_surface") {
     for (const char* lines : {"edges", "line_surface"})
       layer.styles.push_back(defaultSettings(*findStyle(lines)));
+  } else if (style == "sobel" || style == "regression") {
+    layer.styles = {gradientBy(style), defaultSettings(*findStyle("light")),
+                    defaultSettings(*findStyle("edges"))};
   } else if (style != "plain") {
     layer.styles.push_back(defaultSettings(*findStyle(style)));
   }
@@ -69,11 +80,13 @@ inline Scene sceneWithStyle(const std::string& style) {
   return scene;
 }
 
-/// Every style that draws, "plain", "all" and "line_opacity".
+/// Every style that draws, "plain", "all", "line_opacity" and the gradient operators that are no
+/// default.
 inline std::vector<std::string> drawnStyles() {
   std::vector<std::string> names{"plain", "all", "line_opacity"};
   for (const StyleSpec& spec : styleTable())
     if (spec.hasSnippet) names.emplace_back(spec.name);
+  names.insert(names.end(), {"sobel", "regression"});
   return names;
 }
 

@@ -116,7 +116,7 @@ std::vector<Row> measureMaxError(const Communicator& comm, NamedScene& named,
                                  const MaxErrorPlan& plan) {
   PreparedScene& prepared = named.prepared;
   prepared.scene.imageSize = {plan.side, plan.side};
-  const node::VolumeSurvey survey = node::surveyVolume(comm, *prepared.source, false);
+  const node::VolumeSurvey survey = node::surveyVolume(comm, *prepared.source, {});
   std::vector<Row> rows;
   for (const std::string_view function : {"smooth", "spiky"}) {
     Layer layer;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "burin/common/camera.hpp"
+#include "burin/common/gradient_operator.hpp"
 #include "burin/common/style.hpp"
 #include "burin/common/transfer_function.hpp"
 
@@ -158,6 +159,11 @@ int ghostLayersNeeded(const Scene& scene);
 /// What a scene looks up by value: the transfer function of each layer, followed by that of its
 /// lines (black) if it has line opacities.
 std::vector<TransferFunction> transferFunctions(const Scene& scene);
+/// The operator that a layer's gradients are made with, whether any of its styles needs them or
+/// not.
+GradientOperator gradientOperator(const Layer& layer);
+/// Those of the layers that need gradients.
+GradientOperatorSet gradientOperatorsNeeded(const Scene& scene);
 /// Whether any layer needs gradients.
 bool gradientNeeded(const Scene& scene);
 

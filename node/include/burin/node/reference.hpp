@@ -6,8 +6,17 @@
 #include "burin/common/image.hpp"
 #include "burin/common/scene.hpp"
 #include "burin/node/brick_source.hpp"
+#include "burin/node/survey.hpp"
 
 namespace burin::node {
+
+/// 99.9th percentiles over the whole volume in which magnitudes are measured (world units).
+/// Unset: the exact ones.
+struct ReferenceScales {
+  PerGradientOperator<std::optional<double>> gradients;
+};
+/// The survey's, as far as the scene needs them.
+ReferenceScales surveyedScales(const VolumeSurvey& survey, const Scene& scene);
 
 /// The slow, double-precision truth: written from techniques and scene contract alone, sharing no
 /// formula with the shaders. Holds the whole volume. Local.
@@ -22,15 +31,12 @@ class ReferenceRenderer {
  public:
   /// Loads all voxels. `scene` must be resolved (opacity unit lengths set).
   ///
-  /// `gradientScale` (world units), if given, is what gradient magnitudes are measured in where a
-  /// layer asks for the 99.9th percentile; otherwise that is the exact percentile over all voxels.
-  /// The survey's percentile (VolumeSurvey::gradient999) is rounded up to a bin edge, up to 2^-10
-  /// above the exact one: enough to move steep surface curves by more than renderer and reference
-  /// may differ. A comparison of the two therefore hands the survey's number to both.
+  /// `scales`: the survey's are rounded up to a bin edge, up to 2^-10 above the exact ones: enough
+  /// to move steep surface curves by more than renderer and reference may differ. A comparison of
+  /// the two therefore hands the survey's numbers to both.
   ///
   /// Throws Error{kVolume} if the voxels cannot be read.
-  ReferenceRenderer(const Scene& scene, BrickSource& source,
-                    std::optional<double> gradientScale = std::nullopt);
+  ReferenceRenderer(const Scene& scene, BrickSource& source, const ReferenceScales& scales = {});
   ~ReferenceRenderer();
   ReferenceRenderer(const ReferenceRenderer&) = delete;
   ReferenceRenderer& operator=(const ReferenceRenderer&) = delete;

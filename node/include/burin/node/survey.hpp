@@ -7,6 +7,7 @@
 
 #include "burin/common/communicator.hpp"
 #include "burin/common/geometry.hpp"
+#include "burin/common/gradient_operator.hpp"
 #include "burin/node/brick_source.hpp"
 
 namespace burin::node {
@@ -42,20 +43,32 @@ struct BlockRanges {
 /// blocks (or 16). Finer ones tell better where the work is.
 int blockCellsFor(const glm::ivec3& dims);
 
+/// Magnitudes |∇f| that count as m = 1: at the voxels, in world units; 0 where the volume has no
+/// gradients.
+struct GradientScales {
+  double percentile = 0;  ///< the 99.9th (relative bin width 2^-10, upper edge)
+  double maximum = 0;
+};
+
+/// What a survey finds beside the values' ranges.
+struct SurveyRequest {
+  GradientOperatorSet gradients;
+};
+
 /// Facts of the whole volume, the same on all ranks and for any number of ranks.
 struct VolumeSurvey {
   double lowest = 0;  ///< of the finite voxels, data units; both 0 if there are none
   double highest = 0;
   std::int64_t nanCount = 0;
   std::int64_t infiniteCount = 0;
-  double largestGradient = 0;  ///< of |∇f| in world units, central differences at the voxels
-  double gradient999 = 0;      ///< its 99.9th percentile (relative bin width 2^-10, upper edge)
+  PerGradientOperator<GradientScales> gradients;  ///< of the operators that were asked for
   BlockRanges blocks;
 };
 
-/// Collective. One pass over all voxels, split among the ranks by slabs; gradients only if asked
-/// for (central differences with neighbours clamped at the volume's border; NaN neighbours skip the
-/// voxel, infinities count as the nearest finite end).
-VolumeSurvey surveyVolume(const Communicator& comm, BrickSource& source, bool withGradients);
+/// Collective. One pass over all voxels, split among the ranks by slabs. Of gradients neighbours are
+/// clamped at the volume's border, a NaN among those that count skips the voxel, infinities count as the
+/// nearest finite end.
+VolumeSurvey surveyVolume(const Communicator& comm, BrickSource& source,
+                          const SurveyRequest& request);
 
 }  // namespace burin::node
