@@ -13,11 +13,11 @@ target_include_directories(burin_gl_loader PUBLIC $<BUILD_INTERFACE:${glad_dir}/
 
 set(shader_files
   fullscreen.vert lattice.glsl ownership.glsl opacity.glsl volume.glsl neighbourhood.glsl
-  skip.glsl preintegration.glsl sides.glsl shading.glsl position.glsl adaptive.glsl cells.glsl
+  skip.glsl preintegration.glsl sides.glsl shading.glsl position.glsl laplacian.glsl adaptive.glsl cells.glsl
   halving.glsl raycast.glsl slice.glsl resolve.glsl
   styles/surface.glsl styles/boundary.glsl styles/silhouette.glsl styles/fade.glsl styles/light.glsl
-  styles/tone.glsl styles/toon.glsl styles/depth.glsl styles/edges.glsl styles/specular.glsl
-  styles/line_surface.glsl)
+  styles/tone.glsl styles/toon.glsl styles/depth.glsl styles/laplacian.glsl styles/edges.glsl
+  styles/specular.glsl styles/line_surface.glsl)
 list(TRANSFORM shader_files PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/shaders/ OUTPUT_VARIABLE shader_paths)
 set(embedded ${CMAKE_CURRENT_BINARY_DIR}/embedded_shaders.cpp)
 add_custom_command(
@@ -32,7 +32,7 @@ burin_library(node
           src/gl_program.cpp src/curve_code.cpp src/program_generator.cpp src/transfer_integral.cpp src/transfer_table.cpp
           src/visible_values.cpp src/value_scale.cpp src/value_ranges.cpp src/clip_planes.cpp
           src/visible_blocks.cpp src/macrocells.cpp src/chessboard_distance.cpp
-          src/step_map.cpp src/brick_texture.cpp src/brick.cpp src/cost_estimate.cpp
+          src/step_map.cpp src/brick_texture.cpp src/laplacian_texture.cpp src/brick.cpp src/cost_estimate.cpp
           src/program_uniforms.cpp src/transfer_textures.cpp src/sample_counters.cpp
           src/frame_target.cpp src/layer_images.cpp src/brick_renderer.cpp src/raycaster.cpp
           src/slicer.cpp src/technique.cpp src/worker.cpp ${embedded}

@@ -8,6 +8,7 @@ burin_library(volumes
           src/volume_writer.cpp src/gzip_writer.cpp src/nrrd_header.cpp src/nifti_header.cpp
           src/slab_reading.cpp src/slab_scatter.cpp
           src/survey.cpp src/range_survey.cpp src/gradient_survey.cpp src/operator_weights.cpp
+          src/smoothed_laplacian.cpp src/laplacian_survey.cpp
   PUBLIC burin::scene burin::mpi
   PRIVATE Teem::teem NIFTI::nifti2 ZLIB::ZLIB)
 burin_unity(burin_volumes)

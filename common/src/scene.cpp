@@ -179,4 +179,13 @@ bool gradientNeeded(const Scene& scene) {
   return !gradientOperatorsNeeded(scene).empty();
 }
 
+bool laplacianNeeded(const Scene& scene) {
+  return std::any_of(scene.layers.begin(), scene.layers.end(), [](const Layer& layer) {
+    return std::any_of(layer.styles.begin(), layer.styles.end(), [](const StyleSettings& s) {
+      const StyleSpec* spec = findStyle(s.name);
+      return spec != nullptr && spec->needsLaplacian;
+    });
+  });
+}
+
 }  // namespace burin

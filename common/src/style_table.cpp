@@ -213,6 +213,38 @@ StyleSpec depthStyle() {
           })};
 }
 
+StyleSpec laplacianStyle() {
+  const auto threshold = [](std::string_view name, std::string_view help, double value) {
+    return ParameterSpec{.name = name,
+                         .help = help,
+                         .defaultValue = value,
+                         .minimum = 0,
+                         .maximum = 1,
+                         .unit = "of the volume's magnitude"};
+  };
+  return {
+      .name = "laplacian",
+      .help = "creases: darkens where the smoothed second derivative is large",
+      .needsLaplacian = true,
+      .ghostLayers = 3,
+      .parameters = {
+          threshold("above", "Laplacian above which colour changes: hollows of dense material",
+                    0.05),
+          threshold("below", "the same of a negative one: crests and thin walls; 1 is never", 1),
+          {.name = "softness",
+           .help = "from a threshold on, over how much of the Laplacian the change spreads",
+           .defaultValue = 0.1,
+           .minimum = 0.01,
+           .maximum = 1},
+          {.name = "strength",
+           .help = "how much of the colour is mixed in",
+           .defaultValue = 0.8,
+           .minimum = 0,
+           .maximum = 1},
+          {.name = "color", .help = "what it changes to", .defaultValue = Colour{0, 0, 0}},
+      }};
+}
+
 StyleSpec edgesStyle() {
   return {.name = "edges",
           .help = "lines where a surface turns away from the eye",
@@ -275,10 +307,10 @@ StyleSpec lineSurfaceStyle() {
 }  // namespace
 
 std::span<const StyleSpec> styleTable() {
-  static const std::vector<StyleSpec> table{gradientStyle(),   surfaceStyle(),  boundaryStyle(),
-                                            silhouetteStyle(), fadeStyle(),     lightStyle(),
-                                            toneStyle(),       toonStyle(),     depthStyle(),
-                                            edgesStyle(),      specularStyle(), lineSurfaceStyle()};
+  static const std::vector<StyleSpec> table{
+      gradientStyle(), surfaceStyle(), boundaryStyle(), silhouetteStyle(), fadeStyle(),
+      lightStyle(),    toneStyle(),    toonStyle(),     depthStyle(),      laplacianStyle(),
+      edgesStyle(),    specularStyle(), lineSurfaceStyle()};
   return table;
 }
 

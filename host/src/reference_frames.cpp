@@ -45,10 +45,11 @@ class ReferenceFrames : public FrameMaker {
         report_{std::move(report)} {
     // The survey's percentile, as the renderer uses it: the two are made to be compared.
     node::ReferenceScales scales;
-    const GradientOperatorSet operators = gradientOperatorsNeeded(prepared.scene);
-    if (!operators.empty())
-      scales = node::surveyedScales(node::surveyVolume(comm, *prepared.source, {operators}),
-                                    prepared.scene);
+    const node::SurveyRequest request{gradientOperatorsNeeded(prepared.scene),
+                                      laplacianNeeded(prepared.scene)};
+    if (!request.gradients.empty() || request.laplacian)
+      scales =
+          node::surveyedScales(node::surveyVolume(comm, *prepared.source, request), prepared.scene);
     collectively(comm, "loading the volume",
                  [&] { renderer_.emplace(prepared.scene, *prepared.source, scales); });
   }

@@ -12,7 +12,7 @@ IndexBox storedVoxels(const IndexBox& cells, int ghostLayers, const VolumeGrid& 
 }
 
 Brick::Brick(BrickId id, const IndexBox& cells, int ghostLayers, const VolumeInfo& volume,
-             const ValueScale& scale)
+             const ValueScale& scale, const std::optional<double>& laplacian999)
     : id_{id},
       grid_{volume.grid},
       cells_{cells},
@@ -20,6 +20,7 @@ Brick::Brick(BrickId id, const IndexBox& cells, int ghostLayers, const VolumeInf
       texture_{burin::node::storedVoxels(cells, ghostLayers, volume.grid), volume.type, scale},
       macrocells_{texture_.storedVoxels()},
       distances_{makeTexture(GL_TEXTURE_3D)} {
+  if (laplacian999) laplacian_.emplace(texture_.storedVoxels(), volume.grid, scale, *laplacian999);
   const glm::ivec3 size = macrocells_.size();
   gl().TextureStorage3D(distances_.id(), 1, GL_R8I, size.x, size.y, size.z);
   gl().TextureParameteri(distances_.id(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
@@ -30,6 +31,7 @@ Brick::Brick(BrickId id, const IndexBox& cells, int ghostLayers, const VolumeInf
 void Brick::upload(const IndexBox& box, std::span<const std::byte> voxels, StagingBuffer& staging) {
   texture_.upload(box, voxels, staging);
   macrocells_.add(box, staging.values);
+  if (laplacian_) laplacian_->add(staging.values);
 }
 
 void Brick::classify(const VisibleValues& visible, std::span<const glm::vec4> clipPlanes) {
@@ -50,7 +52,8 @@ void Brick::classify(const VisibleValues& visible, std::span<const glm::vec4> cl
 
 std::size_t Brick::residentBytes() const {
   const glm::ivec3 size = macrocells_.size();
-  return texture_.bytes() + macrocells_.bytes() + IndexBox{glm::ivec3{0}, size}.count();
+  return texture_.bytes() + (laplacian_ ? laplacian_->bytes() : 0) + macrocells_.bytes() +
+         IndexBox{glm::ivec3{0}, size}.count();
 }
 
 }  // namespace burin::node

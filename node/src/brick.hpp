@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "brick_texture.hpp"
 #include "burin/common/brick_tree.hpp"
+#include "laplacian_texture.hpp"
 #include "macrocells.hpp"
 #include "visible_values.hpp"
 
@@ -14,10 +16,12 @@ namespace burin::node {
 class Brick {
  public:
   /// `cells`: those of the tree's brick that are stored and drawn; the others show nothing.
-  /// `ghostLayers`: voxels loaded beyond them, clamped at the volume.
+  /// `ghostLayers`: voxels loaded beyond them, clamped at the volume. `laplacian999`: as of
+  /// LaplacianTexture, if there is to be one.
   Brick(BrickId id, const IndexBox& cells, int ghostLayers, const VolumeInfo& volume,
-        const ValueScale& scale);
+        const ValueScale& scale, const std::optional<double>& laplacian999);
 
+  /// Slabs of the stored voxels, whole in x and y, in ascending z.
   void upload(const IndexBox& box, std::span<const std::byte> voxels, StagingBuffer& staging);
   /// After the last upload.
   void finishLoading() { macrocells_.finish(); }
@@ -31,6 +35,8 @@ class Brick {
   const IndexBox& storedVoxels() const { return texture_.storedVoxels(); }
   GLuint volumeTexture() const { return texture_.id(); }
   GLuint distanceTexture() const { return distances_.id(); }
+  /// 0 if there is none.
+  GLuint laplacianTexture() const { return laplacian_ ? laplacian_->id() : 0; }
   /// First voxel of the distance map, global index.
   glm::ivec3 mapOrigin() const { return macrocells_.origin(); }
   /// Own cells in which segments may show something; empty if the brick shows nothing. A segment
@@ -44,6 +50,7 @@ class Brick {
   IndexBox cells_;
   int ghostLayers_;
   BrickTexture texture_;
+  std::optional<LaplacianTexture> laplacian_;
   Macrocells macrocells_;
   Texture distances_;
   IndexBox visibleCells_;

@@ -87,16 +87,23 @@ std::size_t bytesPerTexel(VoxelType type, bool hasInvalid) {
   return hasInvalid ? 8 : 4;
 }
 
-BrickTexture::BrickTexture(const IndexBox& storedVoxels, VoxelType type, const ValueScale& scale)
-    : stored_{storedVoxels}, type_{type}, scale_{scale}, texture_{makeTexture(GL_TEXTURE_3D)} {
-  const glm::ivec3 size = stored_.size();
-  const GLuint id = texture_.id();
-  gl().TextureStorage3D(id, 1, formatOf(type_, scale_.hasInvalid).internal, size.x, size.y, size.z);
+Texture makeLinearTexture(GLenum format, const glm::ivec3& size) {
+  Texture texture = makeTexture(GL_TEXTURE_3D);
+  gl().TextureStorage3D(texture.id(), 1, format, size.x, size.y, size.z);
   for (const GLenum axis :
        std::array<GLenum, 3>{GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
-    gl().TextureParameteri(id, axis, GL_CLAMP_TO_EDGE);
-  gl().TextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-  gl().TextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    gl().TextureParameteri(texture.id(), axis, GL_CLAMP_TO_EDGE);
+  gl().TextureParameteri(texture.id(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  gl().TextureParameteri(texture.id(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  return texture;
+}
+
+BrickTexture::BrickTexture(const IndexBox& storedVoxels, VoxelType type, const ValueScale& scale)
+    : stored_{storedVoxels},
+      type_{type},
+      scale_{scale},
+      texture_{makeLinearTexture(formatOf(type_, scale_.hasInvalid).internal, stored_.size())} {
+  const glm::ivec3 size = stored_.size();
   if (const GLenum error = gl().GetError(); error != GL_NO_ERROR)
     fail(ExitCode::kRank, "no memory for a brick of {}x{}x{} voxels ({} MiB as a texture)", size.x,
          size.y, size.z, bytes() >> 20);

@@ -15,6 +15,10 @@ inline constexpr std::size_t kLargestTextureBytes = std::size_t{1} << 30;
 /// Bytes of one texel: R16 for integers, R32F for floats, RG32F for floats with NaN voxels.
 std::size_t bytesPerTexel(VoxelType type, bool hasInvalid);
 
+/// A linearly filtered texture with clamped edges and no content yet. Fails as GL does: see
+/// checkGl().
+Texture makeLinearTexture(GLenum format, const glm::ivec3& size);
+
 /// Room for one slab on its way into a texture; one serves all bricks of a rank while they load.
 struct StagingBuffer {
   std::vector<std::uint16_t> texels16;

@@ -230,6 +230,12 @@ class LayerCode {
                          normalOrientation(layer.style("gradient")));
   }
 
+  /// What a style is given beside the shading and its parameters.
+  std::string_view looksAt(const StyleSpec& style) const {
+    if (style.needsLaplacian) return "laplacian, ";
+    return style.needsGradient ? "g, " : "";
+  }
+
   void addStyles(std::size_t i, const Layer& layer) {
     for (const StyleSettings& settings : layer.styles) {
       const StyleSpec& style = *findStyle(settings.name);
@@ -239,7 +245,7 @@ class LayerCode {
       prepare_ += code.prepare;
       const std::string position = style.needsPosition ? positionOf(i, style) + ", " : "";
       body_ += fmt::format("    {{\n    {0}_parameters p;\n{1}    apply_{0}(s, {2}{3}p);\n    }}\n",
-                           style.name, code.statements, style.needsGradient ? "g, " : "", position);
+                           style.name, code.statements, looksAt(style), position);
     }
   }
 
@@ -301,6 +307,7 @@ class LayerCode {
         "void shade(vec3 coordinate, {}vec3 toEye, out vec3 colour, out float extinction) {{\n",
         preintegrated ? "Side front, Side back, " : "");
     text += gradientCode(gradients_, toGradient);
+    if (laplacianNeeded(scene_)) text += "  float laplacian = laplacianAt(coordinate);\n";
     text += "  colour = vec3(0.0);\n  extinction = 0.0;\n" + body_;
     if (!pass_) text += "  if (extinction > 0.0) colour *= 1.0 / extinction;\n";
     return text + "}\n";
@@ -365,6 +372,7 @@ std::string programHead(const Scene& scene, const ProgramOptions& options,
   for (const char* file : {"lattice.glsl", "ownership.glsl", "opacity.glsl", "volume.glsl",
                            "skip.glsl", "shading.glsl"})
     text += fmt::format("#include \"{}\"\n", file);
+  if (laplacianNeeded(scene)) text += "#include \"laplacian.glsl\"\n";
   if (needsNeighbourhood(gradientOperatorsNeeded(scene)))
     text += "#include \"neighbourhood.glsl\"\n";
   if (scene.quality.preintegrated) text += "#include \"preintegration.glsl\"\n";

@@ -126,6 +126,7 @@ void setSceneUniforms(const GlProgram& program, const Scene& scene, const Progra
                       std::span<const TransferTable> tables, GLuint firstTransferUnit) {
   program.set("volume", static_cast<int>(kVolumeUnit));
   program.set("distanceMap", static_cast<int>(kDistanceUnit));
+  program.set("laplacianField", static_cast<int>(kLaplacianUnit));
   const Box box = volume.grid.boxIndex();
   const glm::dvec3 centre = volume.grid.centreIndex();
   program.set("boxLo", toFloat(box.lo - centre));
@@ -203,6 +204,7 @@ void setBrickUniforms(const GlProgram& program, const VolumeGrid& grid, const Br
 void bindTextures(const Brick& brick) {
   gl().BindTextureUnit(kVolumeUnit, brick.volumeTexture());
   gl().BindTextureUnit(kDistanceUnit, brick.distanceTexture());
+  gl().BindTextureUnit(kLaplacianUnit, brick.laplacianTexture());
 }
 
 }  // namespace burin::node

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "burin/common/error.hpp"
+#include "reference_laplacian.hpp"
 #include "reference_layer.hpp"
 #include "reference_pieces.hpp"
 #include "reference_ray.hpp"
@@ -63,6 +64,7 @@ struct ReferenceRenderer::State {
 
   Scene scene;
   ReferenceVolume volume;
+  std::optional<ReferenceLaplacian> laplacian;  ///< if a layer needs it
   std::vector<ReferenceLayer> layers;
   double stepWorld;
 };
@@ -74,6 +76,7 @@ ReferenceRenderer::State::State(const Scene& givenScene, BrickSource& source,
       stepWorld{scene.quality.stepVoxels * volume.grid().smallestSpacing()} {
   ReferenceGradientScale scale{volume, scales.gradients};
   for (const Layer& layer : scene.layers) layers.emplace_back(layer, scale);
+  if (laplacianNeeded(scene)) laplacian.emplace(volume, scales.laplacian);
 }
 
 /// Layers are media in the same place: extinctions add, colours mix by extinction.
@@ -86,7 +89,8 @@ Classified ReferenceRenderer::State::sampleOf(const glm::dvec3& begin, const glm
   const bool preintegrated = scene.quality.preintegrated;
   const double front = preintegrated ? volume.valueAt(begin).value_or(*value) : *value;
   const double back = preintegrated ? volume.valueAt(end).value_or(*value) : *value;
-  const glm::dvec3 world = volume.grid().worldFromIndex(index);
+  ReferencePlace place{.world = volume.grid().worldFromIndex(index)};
+  if (laplacian) place.laplacian = laplacian->at(index);
   PerGradientOperator<std::optional<glm::dvec3>> gradients;  // of the volume: for all layers
   for (const ReferenceLayer& layer : layers) {
     const ReferenceClass classes =
@@ -96,7 +100,8 @@ Classified ReferenceRenderer::State::sampleOf(const glm::dvec3& begin, const glm
     std::optional<glm::dvec3>& gradient = gradients[layer.gradientOperatorUsed()];
     if (layer.needsGradient() && !gradient)
       gradient = volume.gradientAt(index, layer.gradientOperatorUsed());
-    const Classified sample = layer.shade(classes, gradient.value_or(glm::dvec3{0}), world, view);
+    place.gradient = gradient.value_or(glm::dvec3{0});
+    const Classified sample = layer.shade(classes, place, view);
     mixture.colour += sample.extinction * sample.colour;
     mixture.extinction += sample.extinction;
   }
@@ -187,6 +192,7 @@ ReferenceScales surveyedScales(const VolumeSurvey& survey, const Scene& scene) {
   const GradientOperatorSet needed = gradientOperatorsNeeded(scene);
   for (const GradientOperator which : kAllGradientOperators)
     if (needed.contains(which)) scales.gradients[which] = survey.gradients[which].percentile;
+  if (laplacianNeeded(scene)) scales.laplacian = survey.laplacian999;
   return scales;
 }
 

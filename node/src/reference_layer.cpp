@@ -67,6 +67,9 @@ void ReferenceLayer::readColourStyles(const Layer& layer) {
     depth_ = Depth{directionOf(*s),      s->word("mode") == "distance", s->colourCurve("factor"),
                    s->curve("blend"),    s->colour("color").linear(),   s->number("strength"),
                    s->number("exponent")};
+  if (const auto* s = layer.style("laplacian"))
+    laplacian_ = Laplacian{s->number("above"), s->number("below"), s->number("softness"),
+                           s->number("strength"), s->colour("color").linear()};
 }
 
 void ReferenceLayer::readLineStyles(const Layer& layer) {
@@ -108,19 +111,20 @@ ReferenceClass ReferenceLayer::classify(double front, double back) const {
           lineMeans_->between(front, back).extinction};
 }
 
-Classified ReferenceLayer::shade(const ReferenceClass& classes, const glm::dvec3& gradient,
-                                 const glm::dvec3& world, const ReferenceView& view) const {
-  const ReferenceFacing at = needsGradient() ? facing(gradient, view) : ReferenceFacing{};
+Classified ReferenceLayer::shade(const ReferenceClass& classes, const ReferencePlace& place,
+                                 const ReferenceView& view) const {
+  const ReferenceFacing at = needsGradient() ? facing(place.gradient, view) : ReferenceFacing{};
   Classified sample = classes.plain;
   if (surface_) sample.extinction *= surface_->at(at.magnitude);
   if (boundary_) sample.extinction *= boundary_->at(at.magnitude);
   if (silhouette_) sample.extinction *= silhouette_->at(edgeMeasure(at, view));
-  const double faded = fade_ ? fade_->opacity.at(fade_->direction.position(world, view)) : 1.0;
+  const double faded = fade_ ? fade_->opacity.at(fade_->direction.position(place.world, view)) : 1.0;
   sample.extinction *= faded;
   if (light_) sample.colour = lit(sample.colour, at, view);
   if (tone_) sample.colour = tone_->apply(sample.colour, at, view);
   if (toon_) sample.colour = tooned(sample.colour, at, view);
-  if (depth_) sample.colour = distant(sample.colour, world, view);
+  if (depth_) sample.colour = distant(sample.colour, place.world, view);
+  if (laplacian_) sample.colour = creased(sample.colour, place.laplacian);
   const double lineFactor = faded * (lineSurface_ ? lineSurface_->at(at.magnitude) : 1.0);
   if (edges_ || specular_) drawLines(sample, classes.lineExtinction, lineFactor, at, view);
   return sample;
@@ -177,6 +181,15 @@ glm::dvec3 ReferenceLayer::distant(const glm::dvec3& colour, const glm::dvec3& w
   if (depth_->byDistance)
     return blend(colour, depth_->colour, depth_->strength * std::pow(position, depth_->exponent));
   return blend(colour * depth_->factor.at(position), depth_->colour, depth_->blend.at(position));
+}
+
+glm::dvec3 ReferenceLayer::creased(const glm::dvec3& colour, double laplacian) const {
+  const auto beyond = [&](double threshold, double value) {
+    return smoothstep(threshold, threshold + laplacian_->softness, value);
+  };
+  const double amount =
+      std::max(beyond(laplacian_->above, laplacian), beyond(laplacian_->below, -laplacian));
+  return blend(colour, laplacian_->colour, laplacian_->strength * amount);
 }
 
 /// Lines replace the colour by their share of the sample and bring extinction of their own, so that

@@ -19,6 +19,13 @@ struct ReferenceClass {
   bool shows() const { return plain.extinction > 0 || lineExtinction > 0; }
 };
 
+/// What styles know of a sample's surroundings.
+struct ReferencePlace {
+  glm::dvec3 world{0};     ///< where it is
+  glm::dvec3 gradient{0};  ///< world units, by the layer's operator
+  double laplacian = 0;  ///< in [-1, 1]
+};
+
 /// One layer of the scene, its settings looked up once, evaluated sample by sample.
 class ReferenceLayer {
  public:
@@ -32,10 +39,9 @@ class ReferenceLayer {
   ReferenceClass classify(double value) const;
   ReferenceClass classify(double front, double back) const;
 
-  /// What the styles make of it; `gradient` in world units, by the layer's operator,
-  /// ignored if none needs it; `world`: where.
-  Classified shade(const ReferenceClass& classes, const glm::dvec3& gradient,
-                   const glm::dvec3& world, const ReferenceView& view) const;
+  /// What the styles make of it.
+  Classified shade(const ReferenceClass& classes, const ReferencePlace& place,
+                   const ReferenceView& view) const;
 
  private:
   /// A factor constant + scale * x^exponent on extinction.
@@ -66,6 +72,10 @@ class ReferenceLayer {
     glm::dvec3 colour;
     double strength, exponent;
   };
+  struct Laplacian {
+    double above, below, softness, strength;
+    glm::dvec3 colour;
+  };
   struct Edges {
     double strength, threshold, power;
     glm::dvec3 colour;
@@ -82,6 +92,7 @@ class ReferenceLayer {
   void readGradientSettings(const Layer& layer, ReferenceGradientScale& scale);
 
   ReferenceFacing facing(const glm::dvec3& gradient, const ReferenceView& view) const;
+  glm::dvec3 creased(const glm::dvec3& colour, double laplacian) const;
   glm::dvec3 lit(const glm::dvec3& colour, const ReferenceFacing& at,
                  const ReferenceView& view) const;
   glm::dvec3 tooned(const glm::dvec3& colour, const ReferenceFacing& at,
@@ -109,6 +120,7 @@ class ReferenceLayer {
   std::optional<ReferenceTone> tone_;
   std::optional<Toon> toon_;
   std::optional<Depth> depth_;
+  std::optional<Laplacian> laplacian_;
   std::optional<Edges> edges_;
   std::optional<Specular> specular_;
 };

@@ -6,6 +6,7 @@
 
 #include "burin/common/error.hpp"
 #include "gradient_survey.hpp"
+#include "laplacian_survey.hpp"
 #include "range_survey.hpp"
 
 namespace burin::node {
@@ -81,13 +82,15 @@ class DerivativeSurveys {
     for (const GradientOperator which : kAllGradientOperators)
       if (request.gradients.contains(which))
         gradients_.emplace_back(which, info, share.first, share.last, lowest, highest);
+    if (request.laplacian) laplacian_.emplace(info, share.first, share.last, lowest, highest);
   }
 
   /// Slices beyond this rank's own that they look at.
-  int reach() const { return gradients_.empty() ? 0 : 1; }
+  int reach() const { return laplacian_ ? kLaplacianReach : gradients_.empty() ? 0 : 1; }
 
   void addSlice(int z, std::span<const std::byte> voxels) {
     for (GradientSurvey& gradients : gradients_) gradients.addSlice(z, voxels);
+    if (laplacian_) laplacian_->addSlice(voxels);
   }
 
   /// Collective.
@@ -98,6 +101,8 @@ class DerivativeSurveys {
       allReduce(comm, std::span{&scales.maximum, 1}, MPI_MAX);
       scales.percentile = percentile999(comm, gradients.histogram());
     }
+    if (laplacian_)
+      survey.laplacian999 = laplacian_->unit() * percentile999(comm, laplacian_->histogram());
   }
 
  private:
@@ -107,6 +112,7 @@ class DerivativeSurveys {
   }
 
   std::vector<GradientSurvey> gradients_;
+  std::optional<LaplacianSurvey> laplacian_;
 };
 
 }  // namespace

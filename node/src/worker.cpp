@@ -21,9 +21,12 @@ int ghostLayers(const Scene& scene, const WorkerOptions& options) {
   return options.ghostLayers.value_or(ghostLayersNeeded(scene));
 }
 
+/// `withLaplacian`: bricks have a texture of it too.
 BrickTree partition(const Communicator& comm, const CostEstimate& cost, int ghosts,
-                    const VolumeInfo& volume, const ValueScale& scale,
+                    const VolumeInfo& volume, const ValueScale& scale, bool withLaplacian,
                     const WorkerOptions& options) {
+  const std::size_t texelBytes = std::max(bytesPerTexel(volume.type, scale.hasInvalid),
+                                          withLaplacian ? sizeof(float) : std::size_t{0});
   BrickTree::Request request;
   request.grid = volume.grid;
   request.owners = comm.size() - (options.dedicatedHost ? 1 : 0);
@@ -33,7 +36,7 @@ BrickTree partition(const Communicator& comm, const CostEstimate& cost, int ghos
     const IndexBox stored = storedVoxels(cells, ghosts, volume.grid);
     const glm::ivec3 size = stored.size();
     return std::max({size.x, size.y, size.z}) > kLargestTextureExtent ||
-           stored.count() * bytesPerTexel(volume.type, scale.hasInvalid) > kLargestTextureBytes;
+           stored.count() * texelBytes > kLargestTextureBytes;
   };
   return BrickTree::build(request);
 }
@@ -91,12 +94,13 @@ struct Worker::State {
   Rank firstOwner{0};   ///< rank of owner 0
   VolumeSurvey survey;  ///< but its blocks, which `blocks` holds
   bool isSurveyed = false;
-  GradientOperatorSet surveyed;  ///< operators that the survey has
+  SurveyRequest surveyed;  ///< what the survey has
   ValueScale scale;
   VisibleBlocks blocks;
   Shown shown;  ///< by the scene
   BrickTree tree;
   int ghosts = 0;                           ///< of the bricks loaded
+  bool hasLaplacian = false;                ///< the bricks loaded
   std::vector<IndexBox> parts;              ///< by brick: its cells that its owner has loaded
   bool isWhole = false;                     ///< the last load went well
   std::vector<BrickId> mine;                ///< this rank's bricks
@@ -154,15 +158,16 @@ bool Worker::State::isSplitBadly(const Scene& next, const Shown& what) const {
   const CostEstimate cost = costOf(what);
   const double now = unevenness(tree, cost);
   if (now <= 2) return false;
-  const BrickTree other =
-      partition(comm, cost, ghostLayers(next, options), source.info(), scale, options);
+  const BrickTree other = partition(comm, cost, ghostLayers(next, options), source.info(), scale,
+                                    laplacianNeeded(next), options);
   return unevenness(other, cost) < 0.75 * now;
 }
 
 /// Whether the bricks hold all that a scene needs. The same answer on every rank.
 bool Worker::State::isLoaded(const Scene& next, const Shown& what) const {
   const int layers = ghostLayers(next, options);
-  if (!isWhole || layers > ghosts || !surveyed.contains(gradientOperatorsNeeded(next)))
+  if (!isWhole || layers > ghosts || (laplacianNeeded(next) && !hasLaplacian) ||
+      !surveyed.gradients.contains(gradientOperatorsNeeded(next)))
     return false;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const IndexBox needed = neededPart(BrickId{static_cast<std::uint32_t>(i)}, what, layers);
@@ -179,10 +184,13 @@ std::size_t Worker::State::sharedBytes() const {
 
 /// Collective. The survey, and what follows from it, if the scene needs more than there is.
 void Worker::State::measure() {
-  const GradientOperatorSet needed = gradientOperatorsNeeded(scene);
-  if (isSurveyed && surveyed.contains(needed)) return;
-  const GradientOperatorSet all = surveyed | needed;
-  survey = surveyVolume(comm, source, {all});
+  const SurveyRequest needed{gradientOperatorsNeeded(scene), laplacianNeeded(scene)};
+  if (isSurveyed && surveyed.gradients.contains(needed.gradients) &&
+      needed.laplacian <= surveyed.laplacian)
+    return;
+  const SurveyRequest all{surveyed.gradients | needed.gradients,
+                          surveyed.laplacian || needed.laplacian};
+  survey = surveyVolume(comm, source, all);
   surveyed = all;
   scale = valueScaleOf(source.info().type, survey);
   blocks = VisibleBlocks{survey, scale};
@@ -212,7 +220,8 @@ void Worker::State::loadParts() {
   measure();
   shown = whatShows(scene);
   ghosts = ghostLayers(scene, options);
-  tree = partition(comm, costOf(shown), ghosts, volume, scale, options);
+  hasLaplacian = laplacianNeeded(scene);
+  tree = partition(comm, costOf(shown), ghosts, volume, scale, hasLaplacian, options);
   parts.clear();
   for (std::size_t i = 0; i < tree.brickCount(); ++i)
     parts.push_back(neededPart(BrickId{static_cast<std::uint32_t>(i)}, shown, ghosts));
@@ -233,7 +242,8 @@ void Worker::State::loadParts() {
           makeRenderer(scene, {volume.grid, scale, survey.gradients}, options, mine.size() > 1);
     for (const BrickId id : mine) {
       if (part(id).empty()) continue;
-      bricks.emplace_back(id, part(id), ghosts, volume, scale);
+      bricks.emplace_back(id, part(id), ghosts, volume, scale,
+                          hasLaplacian ? std::optional{survey.laplacian999} : std::nullopt);
       boxes.push_back(bricks.back().storedVoxels());
     }
   });

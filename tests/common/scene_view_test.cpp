@@ -175,6 +175,10 @@ TEST(SceneNeeds, GhostLayersAndGradientsFollowTheStyles) {
   scene.layers[1].styles = {defaultSettings(*findStyle("edges"))};
   EXPECT_EQ(ghostLayersNeeded(scene), 1);
   EXPECT_TRUE(gradientNeeded(scene));
+  EXPECT_FALSE(laplacianNeeded(scene));
+  scene.layers[0].styles = {defaultSettings(*findStyle("laplacian"))};
+  EXPECT_EQ(ghostLayersNeeded(scene), 3);
+  EXPECT_TRUE(laplacianNeeded(scene));
 }
 
 TEST(SceneNeeds, GradientOperatorsOfTheLayersThatHaveGradients) {

@@ -46,7 +46,7 @@ TEST(StyleTable, EffectsApplyInTheAgreedOrder) {
   for (const StyleSpec& style : styleTable()) names.push_back(style.name);
   EXPECT_THAT(names,
               testing::ElementsAre("gradient", "surface", "boundary", "silhouette", "fade", "light",
-                                   "tone", "toon", "depth", "edges", "specular", "line_surface"));
+                                   "tone", "toon", "depth", "laplacian", "edges", "specular", "line_surface"));
 }
 
 TEST(StyleTable, StylesByPositionSayWhichOne) {

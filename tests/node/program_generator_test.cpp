@@ -22,7 +22,8 @@ TEST(ProgramGenerator, HoldsOnlyWhatTheSceneUses) {
   const std::string tone = generateRaycastProgram(sceneWithStyle("tone"), {}).text;
   EXPECT_THAT(tone, HasSubstr("apply_tone"));
   EXPECT_THAT(tone, Not(HasSubstr("apply_edges")));
-  EXPECT_THAT(tone, Not(HasSubstr("Neighbourhood")));
+  for (const char* other : {"Neighbourhood", "laplacian"})
+    EXPECT_THAT(tone, Not(HasSubstr(other))) << other;
 }
 
 TEST(ProgramGenerator, OperatorsAreInItOnce) {

@@ -166,6 +166,8 @@ GradientOperator gradientOperator(const Layer& layer);
 GradientOperatorSet gradientOperatorsNeeded(const Scene& scene);
 /// Whether any layer needs gradients.
 bool gradientNeeded(const Scene& scene);
+/// Whether any layer needs the smoothed Laplacian.
+bool laplacianNeeded(const Scene& scene);
 
 /// JSON Schema (draft 2020-12) of the scene file: the text of configs/schema.json.
 std::string sceneSchemaJson();

@@ -64,6 +64,7 @@ struct StyleSpec {
   /// Depends on where the sample lies. The parameters then have "along" (view or axis) and "axis".
   bool needsPosition = false;
   StylePasses passes = StylePasses::kColour;
+  bool needsLaplacian = false;
   int ghostLayers = 0;     ///< voxels beyond the brick's own that its look-ups touch
   bool hasSnippet = true;  ///< false: settings read by shared code (gradient)
   std::vector<ParameterSpec> parameters;

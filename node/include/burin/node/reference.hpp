@@ -10,10 +10,11 @@
 
 namespace burin::node {
 
-/// 99.9th percentiles over the whole volume in which magnitudes are measured (world units).
-/// Unset: the exact ones.
+/// 99.9th percentiles over the whole volume in which magnitudes are measured (world units): of
+/// gradients, and of the smoothed Laplacian. Unset: the exact ones.
 struct ReferenceScales {
   PerGradientOperator<std::optional<double>> gradients;
+  std::optional<double> laplacian;
 };
 /// The survey's, as far as the scene needs them.
 ReferenceScales surveyedScales(const VolumeSurvey& survey, const Scene& scene);

@@ -53,6 +53,7 @@ struct GradientScales {
 /// What a survey finds beside the values' ranges.
 struct SurveyRequest {
   GradientOperatorSet gradients;
+  bool laplacian = false;
 };
 
 /// Facts of the whole volume, the same on all ranks and for any number of ranks.
@@ -62,12 +63,15 @@ struct VolumeSurvey {
   std::int64_t nanCount = 0;
   std::int64_t infiniteCount = 0;
   PerGradientOperator<GradientScales> gradients;  ///< of the operators that were asked for
+  /// 99.9th percentile of the smoothed Laplacian's magnitude, per squared world unit; 0 if not
+  /// asked for.
+  double laplacian999 = 0;
   BlockRanges blocks;
 };
 
-/// Collective. One pass over all voxels, split among the ranks by slabs. Of gradients neighbours are
-/// clamped at the volume's border, a NaN among those that count skips the voxel, infinities count as the
-/// nearest finite end.
+/// Collective. One pass over all voxels, split among the ranks by slabs. Of gradients and the
+/// Laplacian neighbours are clamped at the volume's border, a NaN among those that count skips the
+/// voxel, infinities count as the nearest finite end.
 VolumeSurvey surveyVolume(const Communicator& comm, BrickSource& source,
                           const SurveyRequest& request);
 

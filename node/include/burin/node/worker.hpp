@@ -48,11 +48,11 @@ class Worker {
 
   /// Collective. Draws this scene from now on, doing only what the change needs: values alone are
   /// uniforms; a transfer function is a new table and new occupancy; other styles are a program;
-  /// more ghost layers, an operator's first gradients, parts that were not loaded because nothing
-  /// showed there, or a split that has become bad mean that bricks are loaded again. `scene` must
-  /// be resolved and of the same volume; the communicator and the source given at the start must
-  /// still be there. Throws CollectiveError; the worker then draws what it drew before, or nothing
-  /// if bricks were being loaded.
+  /// more ghost layers, an operator's first gradients, the first Laplacian, parts that were not
+  /// loaded because nothing showed there, or a split that has become bad mean that bricks are
+  /// loaded again. `scene` must be resolved and of the same volume; the communicator and the source
+  /// given at the start must still be there. Throws CollectiveError; the worker then draws what it
+  /// drew before, or nothing if bricks were being loaded.
   void update(const Scene& scene);
 
   const VolumeSurvey& survey() const;  ///< without its blocks
