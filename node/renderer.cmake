@@ -13,8 +13,8 @@ target_include_directories(burin_gl_loader PUBLIC $<BUILD_INTERFACE:${glad_dir}/
 
 set(shader_files
   fullscreen.vert lattice.glsl ownership.glsl opacity.glsl volume.glsl neighbourhood.glsl
-  skip.glsl preintegration.glsl sides.glsl shading.glsl position.glsl laplacian.glsl adaptive.glsl cells.glsl
-  halving.glsl raycast.glsl slice.glsl resolve.glsl
+  skip.glsl preintegration.glsl sides.glsl shading.glsl caps.glsl position.glsl laplacian.glsl adaptive.glsl
+  cells.glsl halving.glsl raycast.glsl slice.glsl resolve.glsl
   styles/surface.glsl styles/boundary.glsl styles/silhouette.glsl styles/fade.glsl styles/light.glsl
   styles/tone.glsl styles/toon.glsl styles/depth.glsl styles/laplacian.glsl styles/edges.glsl
   styles/specular.glsl styles/line_surface.glsl)

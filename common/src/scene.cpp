@@ -125,6 +125,19 @@ Camera resolveCamera(const Scene& scene, const VolumeFacts& volume, double extra
   return orbitCamera(orbit, volume.grid, scene.imageSize);
 }
 
+std::vector<ClipPlane> clipPlanes(const Scene& scene) {
+  std::vector<ClipPlane> planes = scene.clip;
+  if (!scene.clipBox) return planes;
+  const ClipBox& box = *scene.clipBox;
+  for (int axis = 0; axis < 3; ++axis) {
+    glm::dvec3 unit{0};
+    unit[axis] = 1;
+    planes.push_back({unit, -box.min[axis], box.hasCap});
+    planes.push_back({-unit, box.max[axis], box.hasCap});
+  }
+  return planes;
+}
+
 glm::dvec3 lightDirectionWorld(const Light& light, const Camera& camera) {
   const glm::dvec3& d = light.direction;
   if (!light.eyeSpace) return glm::normalize(d);

@@ -66,17 +66,76 @@ Codec<Light> lightCodec() {
              number({.minimum = 0, .maximum = 100}))});
 }
 
-Codec<ClipPlane> clipCodec() {
-  using P = ClipPlane;
-  return object<P>({required(field<P, glm::dvec4>(
-      "plane", "[a, b, c, d]: keeps a·x + b·y + c·z + d ≥ 0, world units", clipPlaneVector(),
-      [](const P& p) {
-        return std::optional{glm::dvec4{p.normal, p.offset}};
-      },
-      [](P& p, const glm::dvec4& value) {
-        p.normal = glm::dvec3{value};
-        p.offset = value.w;
-      }))});
+/// An item of the list: one of the two.
+struct ClipChoice {
+  std::optional<ClipPlane> plane;
+  std::optional<ClipBox> box;
+  bool hasCap = true;
+};
+
+Codec<ClipBox> clipBoxCodec() {
+  using B = ClipBox;
+  return object<B>(
+      {required(field("min", "Smallest x, y and z that stay", &B::min, vector3(kAnyNumber))),
+       required(field("max", "Largest x, y and z that stay", &B::max, vector3(kAnyNumber)))},
+      [](const At& at, const B& box) {
+        if (!glm::all(glm::lessThan(box.min, box.max)))
+          at.fail("'min' must be below 'max' along every axis");
+      });
+}
+
+Codec<ClipChoice> clipCodec() {
+  using Cut = ClipChoice;
+  return object<Cut>(
+      {field<Cut, glm::dvec4>(
+           "plane", "[a, b, c, d]: keeps a·x + b·y + c·z + d ≥ 0, world units", clipPlaneVector(),
+           [](const Cut& c) {
+             return c.plane ? std::optional{glm::dvec4{c.plane->normal, c.plane->offset}}
+                            : std::nullopt;
+           },
+           [](Cut& c, const glm::dvec4& value) {
+             c.plane = ClipPlane{glm::dvec3{value}, value.w};
+           }),
+       field("box", "Keeps what is inside, world units", &Cut::box, clipBoxCodec()),
+       field("cap", "Light and tone see the cut itself, a voxel deep, not the material's gradient",
+             &Cut::hasCap, boolean())},
+      [](const At& at, const Cut& choice) {
+        if (choice.plane.has_value() == choice.box.has_value())
+          at.fail("expected exactly one of 'plane' and 'box'");
+      });
+}
+
+std::vector<ClipChoice> clipChoices(const Scene& scene) {
+  std::vector<ClipChoice> choices;
+  for (const ClipPlane& plane : scene.clip) choices.push_back({plane, {}, plane.hasCap});
+  if (scene.clipBox) choices.push_back({{}, scene.clipBox, scene.clipBox->hasCap});
+  return choices;
+}
+
+void setClip(Scene& scene, const std::vector<ClipChoice>& choices) {
+  for (const ClipChoice& choice : choices) {
+    if (choice.plane) {
+      scene.clip.push_back(*choice.plane);
+      scene.clip.back().hasCap = choice.hasCap;
+    } else {
+      scene.clipBox = choice.box;
+      scene.clipBox->hasCap = choice.hasCap;
+    }
+  }
+}
+
+Codec<std::vector<ClipChoice>> clipListCodec() {
+  Codec<std::vector<ClipChoice>> codec = list(clipCodec(), 0, kMost);
+  codec.read = [read = std::move(codec.read)](const At& at) {
+    std::vector<ClipChoice> choices = read(at);
+    bool hasBox = false;
+    for (std::size_t i = 0; i < choices.size(); ++i) {
+      if (hasBox && choices[i].box) at.item(i).fail("a second box; expected one at most");
+      hasBox = hasBox || choices[i].box.has_value();
+    }
+    return choices;
+  };
+  return codec;
 }
 
 struct ImageChoice {
@@ -180,7 +239,9 @@ Codec<Scene> makeSceneCodec() {
              list(lightCodec(), 1, kMost)),
        required(field("layers", "What is drawn: simultaneous media, each with its own look",
                       &S::layers, list(layerCodec(), 1, kMost))),
-       field("clip", "Planes that cut material away", &S::clip, list(clipCodec(), 0, kMost)),
+       field<S, std::vector<ClipChoice>>(
+           "clip", "Planes, and one box at most, that cut material away", clipListCodec(),
+           [](const S& s) { return std::optional{clipChoices(s)}; }, setClip),
        field("quality", "Accuracy against time", &S::quality, qualityCodec())});
 }
 

@@ -110,6 +110,7 @@ StyleSpec lightStyle() {
   return {.name = "light",
           .help = "Phong's ambient and diffuse light",
           .needsGradient = true,
+          .seesCuts = true,
           .ghostLayers = 1,
           .parameters = {
               {.name = "ambient",
@@ -138,6 +139,7 @@ StyleSpec toneStyle() {
   return {.name = "tone",
           .help = "warm where lit, cool where not",
           .needsGradient = true,
+          .seesCuts = true,
           .ghostLayers = 1,
           .parameters = {
               {.name = "mode",
@@ -176,6 +178,7 @@ StyleSpec toonStyle() {
   return {.name = "toon",
           .help = "a few flat tones, the colour itself the darkest, white the lightest",
           .needsGradient = true,
+          .seesCuts = true,
           .ghostLayers = 1,
           .parameters = {
               number("tones", "how many tones", 4, 2, 16),
@@ -308,8 +311,8 @@ StyleSpec lineSurfaceStyle() {
 
 std::span<const StyleSpec> styleTable() {
   static const std::vector<StyleSpec> table{
-      gradientStyle(), surfaceStyle(), boundaryStyle(), silhouetteStyle(), fadeStyle(),
-      lightStyle(),    toneStyle(),    toonStyle(),     depthStyle(),      laplacianStyle(),
+      gradientStyle(), surfaceStyle(),  boundaryStyle(),   silhouetteStyle(), fadeStyle(),
+      lightStyle(),    toneStyle(),     toonStyle(),       depthStyle(),      laplacianStyle(),
       edgesStyle(),    specularStyle(), lineSurfaceStyle()};
   return table;
 }

@@ -39,12 +39,18 @@ void prepareLights() {
 
 const int kNormalOutward = 0, kNormalInward = 1, kNormalFacing = 2;
 
-// `gradient`: world direction of increasing values, its length is the magnitude over the scale.
-Surface surfaceOf(vec3 gradient, float magnitude, float noiseFloor, int orientation, vec3 toEye) {
-  float size = length(gradient);
-  vec3 normal = size > 0.0 ? gradient * (-1.0 / size) : vec3(0.0);
+// The unit normal of a surface, `inward`: a direction into its material, or 0.
+vec3 normalAlong(vec3 inward, int orientation, vec3 toEye) {
+  float size = length(inward);
+  vec3 normal = size > 0.0 ? inward * (-1.0 / size) : vec3(0.0);
   if (orientation == kNormalInward) normal = -normal;
   if (orientation == kNormalFacing && dot(normal, toEye) < 0.0) normal = -normal;
+  return normal;
+}
+
+// `gradient`: world direction of increasing values, its length is the magnitude over the scale.
+Surface surfaceOf(vec3 gradient, float magnitude, float noiseFloor, int orientation, vec3 toEye) {
+  vec3 normal = normalAlong(gradient, orientation, toEye);
   float m = min(magnitude, 1.0);
   return Surface(normal, m, smoothstep(noiseFloor, 2.0 * noiseFloor, m), toEye);
 }

@@ -34,7 +34,7 @@ Run below0(double height, double rise, int count) {
 
 std::vector<glm::vec4> centredClipPlanes(const Scene& scene, const VolumeGrid& grid) {
   std::vector<glm::vec4> planes;
-  for (const ClipPlane& plane : scene.clip) {
+  for (const ClipPlane& plane : clipPlanes(scene)) {
     // n·x + d with x = centreWorld + M p: the plane in centred index space, scaled to unit length.
     const glm::dvec3 normal = glm::transpose(grid.indexToWorld()) * plane.normal;
     const double offset = glm::dot(plane.normal, grid.centreWorld()) + plane.offset;

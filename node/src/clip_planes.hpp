@@ -10,8 +10,8 @@
 
 namespace burin::node {
 
-/// The scene's clip planes in centred index space, (normal, offset) with a unit normal: what the
-/// program's clipPlane holds, and what else asks what is clipped.
+/// The scene's clip planes and its box's faces in centred index space, (normal, offset) with a unit
+/// normal: what the program's clipPlane holds, and what else asks what is clipped.
 std::vector<glm::vec4> centredClipPlanes(const Scene& scene, const VolumeGrid& grid);
 
 /// A regular grid of cubes of cells over a part of the volume: macrocells, or the survey's blocks.

@@ -133,7 +133,8 @@ class LayerCode {
   LayerCode(const Scene& scene, std::optional<LayerPass> pass)
       : scene_{scene},
         pass_{pass},
-        gradients_{gradientOperatorsNeeded(scene)} {
+        gradients_{gradientOperatorsNeeded(scene)},
+        hasCaps_{!cappedPlanes(scene).empty()} {
     for (std::size_t i = 0; i < scene.layers.size(); ++i) add(i);
   }
 
@@ -228,12 +229,16 @@ class LayerCode {
     body_ += fmt::format("    Surface g = surfaceOf({0}, {0}Magnitude * {1}, {2}, {3}, toEye);\n",
                          gradientName(gradientOperator(layer)), unit, floor,
                          normalOrientation(layer.style("gradient")));
+    if (hasCaps_)
+      body_ += fmt::format("    Surface cut = cutSurface(g, cap, {});\n",
+                           normalOrientation(layer.style("gradient")));
   }
 
   /// What a style is given beside the shading and its parameters.
   std::string_view looksAt(const StyleSpec& style) const {
     if (style.needsLaplacian) return "laplacian, ";
-    return style.needsGradient ? "g, " : "";
+    if (!style.needsGradient) return "";
+    return hasCaps_ && style.seesCuts ? "cut, " : "g, ";
   }
 
   void addStyles(std::size_t i, const Layer& layer) {
@@ -293,6 +298,7 @@ class LayerCode {
     const bool preintegrated = scene_.quality.preintegrated;
     std::string text;
     std::string prepare = prepare_ + curves_.prepare();
+    if (hasCaps_) prepare += "  prepareCaps();\n";
     const std::string toGradient =
         gradients_.empty() ? "" : keepUniform("mat3", "differencesToGradient", text, prepare);
     text += "void prepareLayers() {\n" + prepare + "}\n";
@@ -307,6 +313,7 @@ class LayerCode {
         "void shade(vec3 coordinate, {}vec3 toEye, out vec3 colour, out float extinction) {{\n",
         preintegrated ? "Side front, Side back, " : "");
     text += gradientCode(gradients_, toGradient);
+    if (hasCaps_) text += "  vec4 cap = capAt(coordinate);\n";
     if (laplacianNeeded(scene_)) text += "  float laplacian = laplacianAt(coordinate);\n";
     text += "  colour = vec3(0.0);\n  extinction = 0.0;\n" + body_;
     if (!pass_) text += "  if (extinction > 0.0) colour *= 1.0 / extinction;\n";
@@ -316,6 +323,7 @@ class LayerCode {
   const Scene& scene_;
   std::optional<LayerPass> pass_;
   GradientOperatorSet gradients_;
+  bool hasCaps_;
   CurveCode curves_;
   std::size_t classes_ = 0;
   std::string uniforms_, prepare_, ends_, classify_, beyond_, total_, body_;
@@ -349,6 +357,16 @@ std::string magnitudeUniform(std::size_t layer) {
   return fmt::format("magnitude{}", layer);
 }
 
+std::vector<ClipPlane> cappedPlanes(const Scene& scene) {
+  const auto seesCuts = [](const StyleSettings& s) { return findStyle(s.name)->seesCuts; };
+  const bool anySees = std::ranges::any_of(scene.layers, [&](const Layer& layer) {
+    return std::ranges::any_of(layer.styles, seesCuts);
+  });
+  std::vector<ClipPlane> planes = clipPlanes(scene);
+  std::erase_if(planes, [&](const ClipPlane& plane) { return !anySees || !plane.hasCap; });
+  return planes;
+}
+
 bool isAdaptive(const Quality& quality) {
   return quality.maxError && quality.preintegrated;
 }
@@ -360,7 +378,9 @@ std::string programHead(const Scene& scene, const ProgramOptions& options,
                         std::optional<LayerPass> pass) {
   std::string text = "#version 450 core\n";
   text += fmt::format("#define LIGHTS {}\n#define CLIP_PLANES {}\n", scene.lights.size(),
-                      scene.clip.size());
+                      clipPlanes(scene).size());
+  const std::size_t caps = cappedPlanes(scene).size();
+  if (caps > 0) text += fmt::format("#define CAPS {}\n", caps);
   if (options.invalidVoxels) text += "#define INVALID_VOXELS\n";
   if (options.countSamples) text += "#define COUNT_SAMPLES\n";
   if (options.severalBricks) text += "#define SEVERAL_BRICKS\n";
@@ -372,6 +392,7 @@ std::string programHead(const Scene& scene, const ProgramOptions& options,
   for (const char* file : {"lattice.glsl", "ownership.glsl", "opacity.glsl", "volume.glsl",
                            "skip.glsl", "shading.glsl"})
     text += fmt::format("#include \"{}\"\n", file);
+  if (caps > 0) text += "#include \"caps.glsl\"\n";
   if (laplacianNeeded(scene)) text += "#include \"laplacian.glsl\"\n";
   if (needsNeighbourhood(gradientOperatorsNeeded(scene)))
     text += "#include \"neighbourhood.glsl\"\n";

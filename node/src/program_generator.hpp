@@ -16,6 +16,9 @@ struct ProgramOptions {
   bool isSteep = false;        ///< a transfer function is; for the adaptive march
 };
 
+/// The clip planes whose cuts some style shades.
+std::vector<ClipPlane> cappedPlanes(const Scene& scene);
+
 /// Whether segments are halved until they are right, instead of taken as they are.
 bool isAdaptive(const Quality& quality);
 

@@ -120,6 +120,25 @@ void setStyleUniforms(const GlProgram& program, const Layer& layer,
   }
 }
 
+/// `textureOffset`: of that name in volume.glsl.
+void setCapUniforms(const GlProgram& program, const Scene& scene, const VolumeGrid& grid,
+                    const IndexBox& storedVoxels, const glm::dvec3& textureOffset) {
+  std::vector<glm::vec4> planes;
+  std::vector<glm::vec3> directions;
+  for (const ClipPlane& plane : cappedPlanes(scene)) {
+    const double length = glm::length(plane.normal);
+    directions.push_back(toFloat(plane.normal / length));
+    // n·x + d with x = centreWorld + M p, p = size * coordinate - textureOffset.
+    const double depth = kCapVoxels * grid.smallestSpacing() * length;
+    const glm::dvec3 normal = glm::transpose(grid.indexToWorld()) * plane.normal / depth;
+    const double offset = (glm::dot(plane.normal, grid.centreWorld()) + plane.offset) / depth -
+                          glm::dot(normal, textureOffset);
+    planes.emplace_back(glm::vec4{glm::dvec4{normal * glm::dvec3{storedVoxels.size()}, offset}});
+  }
+  program.set("capPlanes", planes);
+  program.set("capDirections", directions);
+}
+
 }  // namespace
 
 void setSceneUniforms(const GlProgram& program, const Scene& scene, const ProgramVolume& volume,
@@ -184,7 +203,8 @@ void setStepUniforms(const GlProgram& program, const Camera& camera, const Volum
   program.set("stepWorld", static_cast<float>(lattice.stepWorld));
 }
 
-void setBrickUniforms(const GlProgram& program, const VolumeGrid& grid, const Brick& brick) {
+void setBrickUniforms(const GlProgram& program, const Scene& scene, const VolumeGrid& grid,
+                      const Brick& brick) {
   const glm::dvec3 centre = grid.centreIndex();
   const glm::ivec3 cells = grid.cells();
   glm::vec3 lo = toFloat(glm::dvec3{brick.cells().lo} - centre);
@@ -196,9 +216,11 @@ void setBrickUniforms(const GlProgram& program, const VolumeGrid& grid, const Br
   program.set("brickLo", lo);
   program.set("brickHi", hi);
   const IndexBox& stored = brick.storedVoxels();
-  program.set("textureOffset", toFloat(centre - glm::dvec3{stored.lo} + 0.5));
+  const glm::dvec3 textureOffset = centre - glm::dvec3{stored.lo} + 0.5;
+  program.set("textureOffset", toFloat(textureOffset));
   program.set("textureScale", toFloat(1.0 / glm::dvec3{stored.size()}));
   program.set("cellOffset", toFloat(centre - glm::dvec3{brick.mapOrigin()}));
+  setCapUniforms(program, scene, grid, stored, textureOffset);
 }
 
 void bindTextures(const Brick& brick) {

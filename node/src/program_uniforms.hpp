@@ -36,7 +36,8 @@ void setViewUniforms(const GlProgram& program, const Scene& scene, const Camera&
                      const VolumeGrid& grid);
 void setStepUniforms(const GlProgram& program, const Camera& camera, const VolumeGrid& grid,
                      double stepVoxels);
-void setBrickUniforms(const GlProgram& program, const VolumeGrid& grid, const Brick& brick);
+void setBrickUniforms(const GlProgram& program, const Scene& scene, const VolumeGrid& grid,
+                      const Brick& brick);
 /// To the units above.
 void bindTextures(const Brick& brick);
 

@@ -114,7 +114,7 @@ compositor::SubimageView<Rgba> Raycaster::draw(const Camera& camera,
   double step = 0;
   for (const BrickJob& job : jobs) {
     gl().TextureBarrier();  // the next brick reads what this one drew, each pixel its own
-    setBrickUniforms(*program_, volume_.grid, *job.brick);
+    setBrickUniforms(*program_, scene_, volume_.grid, *job.brick);
     bindTextures(*job.brick);
     for (const StepRun& run : stepRuns(job, scene_.quality.stepVoxels, steps)) {
       if (run.step != step) setStepUniforms(*program_, camera, volume_.grid, run.step);

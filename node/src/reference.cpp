@@ -89,7 +89,9 @@ Classified ReferenceRenderer::State::sampleOf(const glm::dvec3& begin, const glm
   const bool preintegrated = scene.quality.preintegrated;
   const double front = preintegrated ? volume.valueAt(begin).value_or(*value) : *value;
   const double back = preintegrated ? volume.valueAt(end).value_or(*value) : *value;
-  ReferencePlace place{.world = volume.grid().worldFromIndex(index)};
+  ReferencePlace place;
+  place.world = volume.grid().worldFromIndex(index);
+  place.cut = referenceCut(scene, place.world, volume.grid().smallestSpacing());
   if (laplacian) place.laplacian = laplacian->at(index);
   PerGradientOperator<std::optional<glm::dvec3>> gradients;  // of the volume: for all layers
   for (const ReferenceLayer& layer : layers) {
@@ -177,7 +179,7 @@ Span ReferenceRenderer::State::halved(const Path& path, double begin, double end
 glm::dvec4 ReferenceRenderer::State::trace(const ReferenceRay& ray,
                                            std::span<const ReferenceLight> lights,
                                            const ReferenceExtent& extent) const {
-  const auto visible = visibleInterval(ray, volume.grid(), scene.clip);
+  const auto visible = visibleInterval(ray, volume.grid(), scene);
   if (!visible) return glm::dvec4{0};
   const double worldPerDepth = glm::length(ray.direction);
   const Path path{volume.grid().indexFromWorld(ray.origin),

@@ -114,15 +114,17 @@ ReferenceClass ReferenceLayer::classify(double front, double back) const {
 Classified ReferenceLayer::shade(const ReferenceClass& classes, const ReferencePlace& place,
                                  const ReferenceView& view) const {
   const ReferenceFacing at = needsGradient() ? facing(place.gradient, view) : ReferenceFacing{};
+  const ReferenceFacing lightSees = cutThrough(at, place.cut, view);
   Classified sample = classes.plain;
   if (surface_) sample.extinction *= surface_->at(at.magnitude);
   if (boundary_) sample.extinction *= boundary_->at(at.magnitude);
   if (silhouette_) sample.extinction *= silhouette_->at(edgeMeasure(at, view));
-  const double faded = fade_ ? fade_->opacity.at(fade_->direction.position(place.world, view)) : 1.0;
+  const double faded =
+      fade_ ? fade_->opacity.at(fade_->direction.position(place.world, view)) : 1.0;
   sample.extinction *= faded;
-  if (light_) sample.colour = lit(sample.colour, at, view);
-  if (tone_) sample.colour = tone_->apply(sample.colour, at, view);
-  if (toon_) sample.colour = tooned(sample.colour, at, view);
+  if (light_) sample.colour = lit(sample.colour, lightSees, view);
+  if (tone_) sample.colour = tone_->apply(sample.colour, lightSees, view);
+  if (toon_) sample.colour = tooned(sample.colour, lightSees, view);
   if (depth_) sample.colour = distant(sample.colour, place.world, view);
   if (laplacian_) sample.colour = creased(sample.colour, place.laplacian);
   const double lineFactor = faded * (lineSurface_ ? lineSurface_->at(at.magnitude) : 1.0);
@@ -144,11 +146,24 @@ ReferenceFacing ReferenceLayer::facing(const glm::dvec3& gradient,
   ReferenceFacing at;
   if (gradientScale_ > 0) at.magnitude = std::min(glm::length(gradient) / gradientScale_, 1.0);
   at.confidence = smoothstep(noiseFloor_, 2 * noiseFloor_, at.magnitude);
-  at.normal = unitOrZero(gradient);
-  const bool flip = orientation_ == Orientation::kOutward ||
-                    (orientation_ == Orientation::kFacing && glm::dot(at.normal, view.toEye) < 0);
-  if (flip) at.normal = -at.normal;
+  at.normal = orientedNormal(unitOrZero(gradient), view);
   return at;
+}
+
+glm::dvec3 ReferenceLayer::orientedNormal(const glm::dvec3& inward,
+                                          const ReferenceView& view) const {
+  const bool flip = orientation_ == Orientation::kOutward ||
+                    (orientation_ == Orientation::kFacing && glm::dot(inward, view.toEye) < 0);
+  return flip ? -inward : inward;
+}
+
+ReferenceFacing ReferenceLayer::cutThrough(const ReferenceFacing& at, const ReferenceCut& cut,
+                                           const ReferenceView& view) const {
+  ReferenceFacing surface = at;
+  surface.normal =
+      unitOrZero(blend(at.confidence * at.normal, orientedNormal(cut.inward, view), cut.share));
+  surface.confidence = blend(at.confidence, 1.0, cut.share);
+  return surface;
 }
 
 glm::dvec3 ReferenceLayer::lit(const glm::dvec3& colour, const ReferenceFacing& at,

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "burin/common/scene.hpp"
+#include "reference_cut.hpp"
 #include "reference_gradient_scale.hpp"
 #include "reference_mean_class.hpp"
 #include "reference_tone.hpp"
@@ -23,6 +24,7 @@ struct ReferenceClass {
 struct ReferencePlace {
   glm::dvec3 world{0};     ///< where it is
   glm::dvec3 gradient{0};  ///< world units, by the layer's operator
+  ReferenceCut cut;
   double laplacian = 0;  ///< in [-1, 1]
 };
 
@@ -92,6 +94,11 @@ class ReferenceLayer {
   void readGradientSettings(const Layer& layer, ReferenceGradientScale& scale);
 
   ReferenceFacing facing(const glm::dvec3& gradient, const ReferenceView& view) const;
+  /// The unit normal of a surface, `inward`: unit, into its material, or zero.
+  glm::dvec3 orientedNormal(const glm::dvec3& inward, const ReferenceView& view) const;
+  /// A surface where it is cut: for light, tone and toon.
+  ReferenceFacing cutThrough(const ReferenceFacing& at, const ReferenceCut& cut,
+                             const ReferenceView& view) const;
   glm::dvec3 creased(const glm::dvec3& colour, double laplacian) const;
   glm::dvec3 lit(const glm::dvec3& colour, const ReferenceFacing& at,
                  const ReferenceView& view) const;

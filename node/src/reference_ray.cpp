@@ -28,7 +28,7 @@ ReferenceRay referenceRay(const Camera& camera, int column, int row) {
 }
 
 std::optional<DepthInterval> visibleInterval(const ReferenceRay& ray, const VolumeGrid& grid,
-                                             const std::vector<ClipPlane>& clip) {
+                                             const Scene& scene) {
   constexpr double kEndless = std::numeric_limits<double>::infinity();
   DepthInterval interval{ray.startsAtEye ? 0 : -kEndless, kEndless};
   const Box box = grid.boxIndex();
@@ -38,9 +38,14 @@ std::optional<DepthInterval> visibleInterval(const ReferenceRay& ray, const Volu
     keepNonNegative(interval, origin[axis] - box.lo[axis], direction[axis]);
     keepNonNegative(interval, box.hi[axis] - origin[axis], -direction[axis]);
   }
-  for (const ClipPlane& plane : clip)
+  for (const ClipPlane& plane : scene.clip)
     keepNonNegative(interval, glm::dot(plane.normal, ray.origin) + plane.offset,
                     glm::dot(plane.normal, ray.direction));
+  if (scene.clipBox)
+    for (int axis = 0; axis < 3; ++axis) {
+      keepNonNegative(interval, ray.origin[axis] - scene.clipBox->min[axis], ray.direction[axis]);
+      keepNonNegative(interval, scene.clipBox->max[axis] - ray.origin[axis], -ray.direction[axis]);
+    }
   if (!(interval.near < interval.far)) return std::nullopt;
   return interval;
 }

@@ -25,9 +25,9 @@ struct DepthInterval {
   double far = 0;
 };
 
-/// The part of the ray inside the volume's box and on the kept side of all clip planes; nothing if
-/// that is empty or a point.
+/// The part of the ray inside the volume's box and the scene's clip box, and on the kept side of
+/// all its clip planes; nothing if that is empty or a point.
 std::optional<DepthInterval> visibleInterval(const ReferenceRay& ray, const VolumeGrid& grid,
-                                             const std::vector<ClipPlane>& clip);
+                                             const Scene& scene);
 
 }  // namespace burin::node

@@ -118,7 +118,9 @@ compositor::SubimageView<Rgba> Slicer::draw(const Camera& camera,
   std::ranges::reverse(jobs);  // back to front
   for (const BrickJob& job : jobs) {
     bindTextures(*job.brick);
-    for (const Pass& pass : passes_) setBrickUniforms(*pass.program, volume_.grid, *job.brick);
+    for (const Pass& pass : passes_)
+      setBrickUniforms(*pass.program, sceneOfPass(scene_, pass.layer, pass.kind), volume_.grid,
+                       *job.brick);
     for (const StepRun& run : stepRuns(job, scene_.quality.stepVoxels, steps)) {
       for (const Pass& pass : passes_)
         setStepUniforms(*pass.program, camera, volume_.grid, run.step);

@@ -81,7 +81,7 @@ struct Shown {
 };
 
 bool showsTheSame(const Scene& a, const Scene& b) {
-  return a.clip == b.clip && transferFunctions(a) == transferFunctions(b);
+  return a.clip == b.clip && a.clipBox == b.clipBox && transferFunctions(a) == transferFunctions(b);
 }
 
 }  // namespace

@@ -19,7 +19,8 @@ class Maker {
     s.background = chance() ? std::optional{colour()} : std::nullopt;
     s.lights = several<Light>(1, [&] { return Light{vector(), chance(), colour(), real(0, 100)}; });
     s.layers = several<Layer>(1, [&] { return layer(); });
-    s.clip = several<ClipPlane>(0, [&] { return ClipPlane{vector(), any()}; });
+    s.clip = several<ClipPlane>(0, [&] { return ClipPlane{vector(), any(), chance()}; });
+    if (chance()) s.clipBox = clipBox();
     if (chance())
       s.quality = {real(kSmallestStepVoxels, 100), real(0, 0.5), chance(), std::nullopt,
                    chance() ? Combine::kSum : Combine::kOver};
@@ -39,6 +40,10 @@ class Maker {
   /// Any magnitude that a double has.
   double any() { return std::ldexp(real(-1, 1), whole(-1070, 1020)); }
   double positive() { return std::ldexp(real(0.5, 1), whole(-1000, 1020)); }
+  ClipBox clipBox() {
+    const glm::dvec3 a = vector(), b = vector();
+    return {glm::min(a, b), glm::max(a, b) + glm::dvec3{glm::equal(a, b)}, chance()};
+  }
   glm::dvec3 vector() { return {any(), any(), positive()}; }
   Colour colour() {
     const auto channel = [&] { return static_cast<std::uint8_t>(whole(0, 255)); };

@@ -215,7 +215,7 @@ INSTANTIATE_TEST_SUITE_P(
              "clip[0].plane: expected a list of 4 items, found 3"},
         Case{R"("clip": [{ "plane": [0, 0, 0, 3] }])",
              "clip[0].plane: a zero normal has no direction"},
-        Case{R"("clip": [{}])", "clip[0]: 'plane' is missing"},
+        Case{R"("clip": [{}])", "clip[0]: expected exactly one of 'plane' and 'box'"},
         Case{R"("quality": { "step_voxels": 0 })",
              "quality.step_voxels: expected a number in [0.001, 100], found 0"},
         Case{R"("quality": { "termination": 0.6 })",

@@ -68,6 +68,16 @@ TEST(SceneRoundTrip, ReadsTheContractsExample) {
   EXPECT_EQ(scene.layers[0].style("specular"), nullptr);
 }
 
+TEST(SceneRoundTrip, ClipBoxAmongPlanes) {
+  const Scene scene = parseScene(
+      kMinimal, "minimal",
+      {R"(clip=[{"box": {"min": [1, 2, 3], "max": [4, 5, 6]}, "cap": false}, {"plane": [0, 0, 1, 2]}])"});
+  ASSERT_EQ(scene.clip.size(), 1u);
+  EXPECT_EQ(scene.clip[0], (ClipPlane{{0, 0, 1}, 2, true}));
+  EXPECT_EQ(scene.clipBox, (ClipBox{{1, 2, 3}, {4, 5, 6}, false}));
+  EXPECT_EQ(parseScene(writeScene(scene), "again"), scene);
+}
+
 TEST(SceneRoundTrip, StylesStandInTheTablesOrder) {
   Scene scene = parseScene(kMinimal, "minimal",
                            {"layers.0.style={\"specular\": {}, \"light\": {}, \"tone\": {}}"});

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "burin/common/error.hpp"
@@ -193,6 +194,30 @@ TEST(SceneNeeds, GradientOperatorsOfTheLayersThatHaveGradients) {
   EXPECT_TRUE(gradientOperatorsNeeded(scene).contains(GradientOperator::kCentral));
   scene.layers[0].styles.push_back(defaultSettings(*findStyle("tone")));
   EXPECT_TRUE(gradientOperatorsNeeded(scene).contains(GradientOperator::kSobel));
+}
+
+TEST(ClipPlanes, ABoxIsItsSixFaces) {
+  Scene scene;
+  scene.clip = {{{1, 2, 3}, 4}};
+  scene.clipBox = ClipBox{{-1, -2, -3}, {4, 5, 6}, false};
+  const std::vector<ClipPlane> planes = clipPlanes(scene);
+  ASSERT_EQ(planes.size(), 7u);
+  EXPECT_EQ(planes[0], scene.clip[0]);
+  const auto isKept = [&](const glm::dvec3& p) {
+    return std::ranges::all_of(planes.begin() + 1, planes.end(), [&](const ClipPlane& plane) {
+      return glm::dot(plane.normal, p) + plane.offset >= 0;
+    });
+  };
+  EXPECT_TRUE(isKept({-1, -2, -3}));
+  EXPECT_TRUE(isKept({4, 5, 6}));
+  for (int axis = 0; axis < 3; ++axis) {
+    glm::dvec3 p{0};
+    p[axis] = -3.5;
+    EXPECT_FALSE(isKept(p));
+    p[axis] = 6.5;
+    EXPECT_FALSE(isKept(p));
+    EXPECT_FALSE(planes[1 + 2 * static_cast<std::size_t>(axis)].hasCap);
+  }
 }
 
 }  // namespace

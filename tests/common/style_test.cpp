@@ -44,9 +44,9 @@ TEST(StyleTable, NamesAreUniqueAndDefaultsLieInTheirRanges) {
 TEST(StyleTable, EffectsApplyInTheAgreedOrder) {
   std::vector<std::string_view> names;
   for (const StyleSpec& style : styleTable()) names.push_back(style.name);
-  EXPECT_THAT(names,
-              testing::ElementsAre("gradient", "surface", "boundary", "silhouette", "fade", "light",
-                                   "tone", "toon", "depth", "laplacian", "edges", "specular", "line_surface"));
+  EXPECT_THAT(names, testing::ElementsAre("gradient", "surface", "boundary", "silhouette", "fade",
+                                          "light", "tone", "toon", "depth", "laplacian", "edges",
+                                          "specular", "line_surface"));
 }
 
 TEST(StyleTable, StylesByPositionSayWhichOne) {

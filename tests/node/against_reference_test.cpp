@@ -63,6 +63,35 @@ TEST(AgainstReference, TwoLayersLightsAndClipPlanes) {
   EXPECT_LE(againstReference(scene, source, camera, {.bricks = 7}).largest, kReferenceBound);
 }
 
+TEST(AgainstReference, ClipBoxAndCutSurfaces) {
+  VolumeGrid grid = gridOf({36, 30, 33}, {1, 1.2, 0.8});
+  grid.direction = {glm::normalize(glm::dvec3{1, 0.3, 0}), glm::normalize(glm::dvec3{-0.3, 1, 0}),
+                    glm::dvec3{0, 0, 1}};
+  ArraySource source = smoothVolume(grid);
+  Scene scene = sceneWithStyle("all");
+  scene.imageSize = {40, 32};
+  for (TransferPoint& point : scene.layers[0].transferFunction.points)
+    point.opacity = std::max(point.opacity, 0.3);  // so that there is something at every cut
+  const glm::dvec3 centre = grid.centreWorld();
+  scene.clip = {{{1, 0.2, -0.3}, -glm::dot({1, 0.2, -0.3}, centre)}};
+  scene.clipBox = ClipBox{centre - 9.0, centre + glm::dvec3{12, 7, 10}};
+  scene = resolved(scene, source);
+  Image<Rgba> pictures[2];
+  for (const bool hasCap : {false, true}) {
+    scene.clip[0].hasCap = scene.clipBox->hasCap = hasCap;
+    for (const char* normal : {"outward", "facing"}) {
+      scene.layers[0].styles.front().values[2] = std::string{normal};
+      scene.camera.azimuthDeg = normal == std::string{"facing"} ? -60 : 60;
+      const Camera camera = resolveCamera(scene, {grid, false});
+      EXPECT_LE(againstReference(scene, source, camera).largest, kReferenceBound);
+      const Difference cut = againstReference(scene, source, camera, {.bricks = 7});
+      EXPECT_LE(cut.largest, kReferenceBound);
+      pictures[hasCap ? 1 : 0] = drawAlone(scene, source, camera);
+    }
+  }
+  EXPECT_GT(difference(pictures[0], pictures[1]).largest, 0.05) << "no cut surface is seen";
+}
+
 TEST(AgainstReference, AnOperatorForEachLayer) {
   ArraySource source = smoothVolume(gridOf({30, 33, 28}, {1, 1.4, 0.8}));
   Scene scene = sceneWithStyle("sobel");

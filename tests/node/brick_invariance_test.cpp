@@ -113,6 +113,25 @@ TEST(BrickInvariance, BricksDrawnAloneMakeTheFrame) {
 INSTANTIATE_TEST_SUITE_P(Styles, BrickInvariance, testing::ValuesIn(drawnStyles()),
                          [](const auto& style) { return style.param; });
 
+TEST(BrickInvariance, CutSurfaces) {
+  const VolumeGrid grid = gridOf({46, 37, 29}, {1.0, 0.8, 1.9});
+  ArraySource source = smoothVolume(grid);
+  Scene scene = sceneWithStyle("all");
+  const glm::dvec3 centre = grid.centreWorld();
+  scene.clip = {{{1, 0.2, -0.3}, -glm::dot({1, 0.2, -0.3}, centre)}};
+  scene.clipBox = ClipBox{centre - 11.0, centre + glm::dvec3{15, 9, 13}};
+  scene.camera.azimuthDeg = -60;
+  scene = resolved(scene, source);
+  const Camera camera = resolveCamera(scene, {grid, false});
+  const Image<Rgba> one = drawAlone(scene, source, camera, {.bricks = 1});
+  EXPECT_GT(largestAlpha(one), 0.3);
+  for (const int bricks : {2, 5, 13}) {
+    const Difference d = difference(one, drawAlone(scene, source, camera, {.bricks = bricks}));
+    EXPECT_LE(d.largest, kLargest) << bricks;
+    EXPECT_LE(d.rms, kRms) << bricks;
+  }
+}
+
 TEST(BrickInvariance, TerminationAddsAtMostItsThreshold) {
   ArraySource source = smoothVolume(gridOf({40, 40, 40}));
   Scene scene = sceneWithStyle("all");

@@ -69,5 +69,17 @@ TEST(ClearClipped, PlanesAddUp) {
   EXPECT_THAT(marks, testing::ElementsAre(0, 1, 1, 1, 1, 1, 1, 0));
 }
 
+TEST(ClearClipped, ABoxIsCutAsItsFaces) {
+  const VolumeGrid grid = test::gridOf({33, 33, 33});
+  Scene scene;
+  scene.clipBox = ClipBox{{8, 4, 4}, {24, 30, 30}};
+  std::vector<std::uint8_t> marks(8, 1);
+  clearClipped(marks, {{0, 8, 8}, {8, 1, 1}, 4}, centredClipPlanes(scene, grid), grid);
+  EXPECT_THAT(marks, testing::ElementsAre(0, 1, 1, 1, 1, 1, 1, 0));
+  std::vector<std::uint8_t> outside(8, 1);
+  clearClipped(outside, {{0, 8, 31}, {8, 1, 1}, 4}, centredClipPlanes(scene, grid), grid);
+  EXPECT_THAT(outside, testing::Each(0));
+}
+
 }  // namespace
 }  // namespace burin::node

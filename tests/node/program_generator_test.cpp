@@ -22,17 +22,26 @@ TEST(ProgramGenerator, HoldsOnlyWhatTheSceneUses) {
   const std::string tone = generateRaycastProgram(sceneWithStyle("tone"), {}).text;
   EXPECT_THAT(tone, HasSubstr("apply_tone"));
   EXPECT_THAT(tone, Not(HasSubstr("apply_edges")));
-  for (const char* other : {"Neighbourhood", "laplacian"})
+  for (const char* other : {"Neighbourhood", "cap", "laplacian"})
     EXPECT_THAT(tone, Not(HasSubstr(other))) << other;
 }
 
-TEST(ProgramGenerator, OperatorsAreInItOnce) {
+TEST(ProgramGenerator, CutsAndOperatorsAreInItWhereAStyleSeesThem) {
   Scene scene = sceneWithStyle("edges");
-  scene.layers.push_back(sceneWithStyle("sobel").layers[0]);
+  scene.clip = {{{1, 0, 0}, 0}};
+  scene.clipBox = ClipBox{};
+  EXPECT_THAT(generateRaycastProgram(scene, {}).text, Not(HasSubstr("capAt")));
+  scene.layers.push_back(sceneWithStyle("sobel").layers[0]);  // light sees cuts
   const std::string both = generateRaycastProgram(scene, {}).text;
+  EXPECT_THAT(both, HasSubstr("#define CLIP_PLANES 7\n"));
+  EXPECT_THAT(both, HasSubstr("#define CAPS 7\n"));
   EXPECT_THAT(both, HasSubstr("vec3 centralGradient ="));
   EXPECT_THAT(both, HasSubstr("vec3 sobelGradient ="));
   EXPECT_THAT(both, Not(HasSubstr("regressionGradient")));
+  scene.clipBox->hasCap = false;
+  EXPECT_THAT(generateRaycastProgram(scene, {}).text, HasSubstr("#define CAPS 1\n"));
+  scene.clip[0].hasCap = false;
+  EXPECT_THAT(generateRaycastProgram(scene, {}).text, Not(HasSubstr("capAt")));
 }
 
 TEST(ProgramGenerator, AStyleThatIsNotUsedIsNowhereInTheProgram) {

@@ -34,8 +34,8 @@ struct RampProbe {
       unit[axis] = 1;
       const glm::dvec3 normal = glm::transpose(grid.worldToIndex()) * unit;
       const double zero = -glm::dot(normal, grid.origin);
-      scene.clip.push_back({.normal = normal, .offset = zero - 2});
-      scene.clip.push_back({.normal = -normal, .offset = 9 - zero});
+      scene.clip.push_back({.normal = normal, .offset = zero - 2, .hasCap = false});
+      scene.clip.push_back({.normal = -normal, .offset = 9 - zero, .hasCap = false});
     }
     ArraySource source{grid, [this](glm::ivec3 index) {
                          return static_cast<float>(glm::dot(slopeIndex, glm::dvec3{index}));

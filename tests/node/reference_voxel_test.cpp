@@ -118,8 +118,8 @@ TEST(ReferenceNan, LeavesNoGradientBesideIt) {
       rampScene({makeStyle("light", {{"ambient", 0.0}, {"diffuse", 0.0}, {"normal_color", 0.0}})});
   scene.layers[0].transferFunction = constantTransfer({255, 255, 255}, 0.5);
   const double z = grid.worldFromIndex({0, 0, 4}).z;
-  scene.clip = {{.normal = {0, 0, 1}, .offset = -(z - 0.25)},
-                {.normal = {0, 0, -1}, .offset = z + 0.25}};
+  scene.clip = {{.normal = {0, 0, 1}, .offset = -(z - 0.25), .hasCap = false},
+                {.normal = {0, 0, -1}, .offset = z + 0.25, .hasCap = false}};
   const auto colour = [&](const glm::dvec2& index) {
     const glm::dvec4 pixel = draw(scene, source, alongZ(grid, index)).front();
     EXPECT_GT(pixel.a, 0.2);

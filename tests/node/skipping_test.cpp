@@ -157,6 +157,8 @@ TEST(Skipping, ClippedCellsAreLeaptOverBitForBit) {
     for (int planes = 1; planes <= 3; ++planes) {
       scene.clip.push_back(randomPlane(random, source.info().grid));
       if (planes == 3) scene.clip.erase(scene.clip.begin());
+      const glm::dvec3 centre = source.info().grid.centreWorld();
+      if (planes == 2) scene.clipBox = ClipBox{centre - 7.0, centre + glm::dvec3{5.3, 11, 9}};
       on.update(scene);
       off.update(scene);
       RankStatistics counted, all;

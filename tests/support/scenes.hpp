@@ -51,8 +51,8 @@ inline StyleSettings gradientBy(const std::string& gradientOperator) {
 }
 
 /// One layer, that style alone (none for "plain"; of "line_opacity", which is a layer's own, and
-/// "line_surface" with lines; of a gradient operator's name: light and edges by it), at 72×56 pixels,
-/// no termination.
+/// "line_surface" with lines; of a gradient operator's name: light and edges by it), at 72×56
+/// pixels, no termination.
 inline Scene sceneWithStyle(const std::string& style) {
   Scene scene;
   scene.volume.procedural = "homogeneous";  // the source is given separately

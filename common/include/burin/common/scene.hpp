@@ -25,7 +25,7 @@ inline constexpr double kSmallestStepVoxels = 1e-3;
 inline constexpr double kMostPlanes = 0x1p22;
 /// Most points of a curve; each is code in the ray-cast program.
 inline constexpr std::size_t kMostCurvePoints = 64;
-/// Largest number of lights, of layers and of clip planes.
+/// Largest number of lights, of layers and of clip planes and boxes.
 inline constexpr int kMostListed = 16;
 
 /// Where the voxels come from: a file, or a procedural kind with its dims. The raw* keys are needed
@@ -88,7 +88,16 @@ struct Layer {
 struct ClipPlane {
   glm::dvec3 normal{1, 0, 0};
   double offset = 0;
+  bool hasCap = true;  ///< light and tone see the plane where it cuts material (kCapVoxels)
   friend bool operator==(const ClipPlane&, const ClipPlane&) = default;
+};
+
+/// Keeps min <= x <= max along every world axis.
+struct ClipBox {
+  glm::dvec3 min{0};
+  glm::dvec3 max{1};
+  bool hasCap = true;
+  friend bool operator==(const ClipBox&, const ClipBox&) = default;
 };
 
 /// How several contributions to one sample (layers, and lines on what they lie on) become one.
@@ -118,6 +127,7 @@ struct Scene {
   std::vector<Light> lights = std::vector<Light>(1);  ///< g++ 12 warns falsely of a braced Light{}
   std::vector<Layer> layers;
   std::vector<ClipPlane> clip;
+  std::optional<ClipBox> clipBox;
   Quality quality;
   friend bool operator==(const Scene&, const Scene&) = default;
 };
@@ -149,6 +159,14 @@ void resolveScene(Scene& scene, const VolumeFacts& volume);
 /// The camera in world space. `extraAzimuthDeg` is added to the azimuth (--orbit), or turns an
 /// explicit eye about the target.
 Camera resolveCamera(const Scene& scene, const VolumeFacts& volume, double extraAzimuthDeg = 0);
+
+/// All planes that cut: the scene's, then the faces of its clip box.
+std::vector<ClipPlane> clipPlanes(const Scene& scene);
+
+/// World distance from a plane up to which what it cuts is shaded as the plane, in smallest
+/// spacings; up to twice that the material's own gradient takes over. A fixed length, so that the
+/// cut surface looks the same at every step.
+inline constexpr double kCapVoxels = 1;
 
 /// Unit world direction to the light.
 glm::dvec3 lightDirectionWorld(const Light& light, const Camera& camera);

@@ -65,6 +65,8 @@ struct StyleSpec {
   bool needsPosition = false;
   StylePasses passes = StylePasses::kColour;
   bool needsLaplacian = false;
+  /// Where a clip plane cuts, the surface it shades is the cut.
+  bool seesCuts = false;
   int ghostLayers = 0;     ///< voxels beyond the brick's own that its look-ups touch
   bool hasSnippet = true;  ///< false: settings read by shared code (gradient)
   std::vector<ParameterSpec> parameters;
