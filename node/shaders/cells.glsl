@@ -110,7 +110,9 @@ void main() {
       vec4 first = partColour(coordinate - quarter, front, middle, toEye, 0.5 * world);
       vec4 second = partColour(coordinate + quarter, middle, back, toEye, 0.5 * world);
       vec4 halves = first + (1.0 - first.a) * second;
-      accepted = size == 1u || (largestDifference(halves, whole) <= tolerance &&
+      // A stretch that shows something may agree with its halves by chance, but hardly twice.
+      bool isJudged = size < kUnits || max(whole.a, halves.a) <= tolerance;
+      accepted = size == 1u || (isJudged && largestDifference(halves, whole) <= tolerance &&
                                 !meetsInvalid(front, middle, back));
       if (accepted) {
         sum += (1.0 - sum.a) * halves;
