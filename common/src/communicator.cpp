@@ -21,6 +21,9 @@ constexpr std::chrono::nanoseconds kLongestSleep = std::chrono::milliseconds{2};
 constexpr std::chrono::nanoseconds kAlertTime = std::chrono::milliseconds{50};
 /// Then a sleep is this fraction of the time waited, so that a wait ends at most that much late.
 constexpr int kBackOffFraction = 16;
+constexpr std::chrono::nanoseconds kWatchInterval = std::chrono::milliseconds{100};
+
+std::function<void(const char*)> waitWatch;
 
 std::chrono::nanoseconds sleepAfter(std::chrono::nanoseconds waited) {
   return std::clamp((waited - kAlertTime) / kBackOffFraction, kShortestSleep, kLongestSleep);
@@ -28,10 +31,15 @@ std::chrono::nanoseconds sleepAfter(std::chrono::nanoseconds waited) {
 
 /// Calls `isDone`, which lets MPI progress, until it returns true.
 template <typename IsDone>
-void pollIdly(IsDone&& isDone) {
+void pollIdly(const char* what, IsDone&& isDone) {
   const auto start = Clock::now();
+  std::chrono::nanoseconds nextWatch = kWatchInterval;
   while (!isDone()) {
     const std::chrono::nanoseconds waited = Clock::now() - start;
+    if (waited >= nextWatch) {
+      watchWait(what);
+      nextWatch = waited + kWatchInterval;
+    }
     if (waited < kSpin) {
       sched_yield();  // the rank waited for may want this very core
     } else {
@@ -105,7 +113,7 @@ void checkMpi(int code, const char* call) {
 
 MPI_Status waitIdle(MPI_Request& request, const char* what) {
   MPI_Status status{};
-  pollIdly([&] {
+  pollIdly(what, [&] {
     int isDone = 0;
     checkWait(MPI_Test(&request, &isDone, &status), what);
     return isDone != 0;
@@ -115,15 +123,23 @@ MPI_Status waitIdle(MPI_Request& request, const char* what) {
 
 void waitIdle(std::span<MPI_Request> requests, const char* what) {
   const int count = mpiCount(requests.size());
-  pollIdly([&] {
+  pollIdly(what, [&] {
     int isDone = 0;
     checkWait(MPI_Testall(count, requests.data(), &isDone, MPI_STATUSES_IGNORE), what);
     return isDone != 0;
   });
 }
 
-void waitUntil(const std::function<bool()>& isDone) {
-  pollIdly(isDone);
+void waitUntil(const std::function<bool()>& isDone, const char* what) {
+  pollIdly(what, isDone);
+}
+
+void setWaitWatch(std::function<void(const char*)> watch) {
+  waitWatch = std::move(watch);
+}
+
+void watchWait(const char* what) {
+  if (waitWatch) waitWatch(what);
 }
 
 int mpiCount(std::size_t count) {

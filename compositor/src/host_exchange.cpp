@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cerrno>
 #include <chrono>
 #include <climits>
 #include <ctime>
@@ -24,23 +25,25 @@ void wake(Word& word) {
 }
 
 /// Sleeps while `word` is `value`, for 100 ms at most; returns early for no reason now and then.
-void sleepWhile(Word& word, std::uint32_t value) {
+/// Whether the time has passed.
+bool sleepWhile(Word& word, std::uint32_t value) {
   constexpr timespec kLongest{0, 100'000'000};
-  syscall(SYS_futex, &word, FUTEX_WAIT, value, &kLongest, nullptr, 0);
+  return syscall(SYS_futex, &word, FUTEX_WAIT, value, &kLongest, nullptr, 0) != 0 &&
+         errno == ETIMEDOUT;
 }
 
 /// Waits until `isDone(value of word)`: yields for 20 us, since the rank waited for may want this
 /// very core, then sleeps.
 template <typename IsDone>
-void waitFor(Word& word, IsDone&& isDone) {
+void waitFor(Word& word, const char* what, IsDone&& isDone) {
   const auto start = std::chrono::steady_clock::now();
   for (;;) {
     const std::uint32_t value = word.load(std::memory_order_acquire);
     if (isDone(value)) return;
     if (std::chrono::steady_clock::now() - start < std::chrono::microseconds{20}) {
       sched_yield();
-    } else {
-      sleepWhile(word, value);
+    } else if (sleepWhile(word, value)) {
+      watchWait(what);
     }
   }
 }
@@ -98,7 +101,8 @@ std::vector<std::byte> HostExchange::allGather(std::span<const std::byte> mine) 
     meeting_->number.store(number + 1, std::memory_order_release);
     wake(meeting_->number);
   } else {
-    waitFor(meeting_->number, [&](std::uint32_t now) { return now != number; });
+    waitFor(meeting_->number, "all ranks of this host",
+            [&](std::uint32_t now) { return now != number; });
   }
   std::vector<std::byte> all;
   all.reserve(mine.size() * static_cast<std::size_t>(ranks_));
@@ -132,19 +136,20 @@ void HostExchange::take(std::span<const Rank> senders,
                         const std::function<void(std::size_t, const Letter&)>& use) {
   std::vector<bool> isTaken(senders.size(), false);
   std::size_t left = senders.size();
-  waitFor(inboxes_[static_cast<std::size_t>(rank_)].letters, [&](std::uint32_t) {
-    for (std::size_t i = 0; i < senders.size(); ++i) {
-      Mailbox& box = mailbox(senders[i], Rank{rank_});
-      const std::uint32_t taken = box.taken.load(std::memory_order_relaxed);
-      if (isTaken[i] || box.put.load(std::memory_order_acquire) == taken) continue;
-      const Letter letter = box.letters[taken % kMostUntaken];
-      box.taken.store(taken + 1, std::memory_order_release);
-      isTaken[i] = true;
-      --left;
-      use(i, letter);
-    }
-    return left == 0;
-  });
+  waitFor(inboxes_[static_cast<std::size_t>(rank_)].letters, "pixels of this host's ranks",
+          [&](std::uint32_t) {
+            for (std::size_t i = 0; i < senders.size(); ++i) {
+              Mailbox& box = mailbox(senders[i], Rank{rank_});
+              const std::uint32_t taken = box.taken.load(std::memory_order_relaxed);
+              if (isTaken[i] || box.put.load(std::memory_order_acquire) == taken) continue;
+              const Letter letter = box.letters[taken % kMostUntaken];
+              box.taken.store(taken + 1, std::memory_order_release);
+              isTaken[i] = true;
+              --left;
+              use(i, letter);
+            }
+            return left == 0;
+          });
 }
 
 void HostFlow::send(Rank receiver, Tag, std::span<const std::byte> message) {

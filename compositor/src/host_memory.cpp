@@ -10,21 +10,11 @@
 #include <cerrno>
 #include <cstring>
 
+#include "burin/common/hosts.hpp"
+
 namespace burin::compositor {
 
 namespace {
-
-/// The lowest rank on each rank's host, by rank.
-std::vector<int> hostsOf(const Communicator& comm) {
-  MPI_Comm host = MPI_COMM_NULL;
-  checkMpi(MPI_Comm_split_type(comm.get(), MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &host),
-           "MPI_Comm_split_type");
-  int lowest = static_cast<int>(comm.rank());
-  const int code = MPI_Allreduce(MPI_IN_PLACE, &lowest, 1, MPI_INT, MPI_MIN, host);
-  MPI_Comm_free(&host);
-  checkMpi(code, "MPI_Allreduce");
-  return allGather(comm, lowest);
-}
 
 std::string systemError() {
   return std::strerror(errno);

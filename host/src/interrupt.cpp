@@ -2,6 +2,8 @@
 
 #include <atomic>
 
+#include "burin/host/rank_watch.hpp"
+
 namespace burin::host {
 
 namespace {
@@ -10,6 +12,8 @@ std::atomic<int> receivedSignal{0};
 static_assert(std::atomic<int>::is_always_lock_free, "a signal handler may not lock");
 
 void remember(int signal) {
+  RankWatch::reportLost();  // the launcher ends us so when it has lost a rank
+  RankWatch::leave();
   receivedSignal.store(signal);
 }
 

@@ -1,4 +1,5 @@
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <span>
@@ -10,6 +11,7 @@
 #include "burin/common/log.hpp"
 #include "burin/host/command_line.hpp"
 #include "burin/host/commands.hpp"
+#include "burin/host/rank_watch.hpp"
 #include "burin/host/shared_error.hpp"
 
 namespace burin::host {
@@ -33,21 +35,25 @@ int runTogether(const Communicator& comm, std::span<const char* const> arguments
   }
 }
 
-/// This rank alone is lost, and the others may wait for it for ever: the whole job ends.
-[[noreturn]] void abortAlone(const Communicator& comm, const std::string& reason) {
+/// This rank alone is lost, and the others, if any, may wait for it for ever: the whole job ends.
+int endAlone(const Communicator& comm, const std::string& reason) {
+  RankWatch::leave();
   writeLog("", fmt::format("rank {}: {}", static_cast<int>(comm.rank()), reason), false);
-  MPI_Abort(comm.get(), static_cast<int>(ExitCode::kRank));
-  std::terminate();
+  if (comm.size() > 1) MPI_Abort(comm.get(), static_cast<int>(ExitCode::kRank));
+  return static_cast<int>(ExitCode::kRank);
 }
 
 int runProgram(std::span<const char* const> arguments) {
   const Communicator world{MPI_COMM_WORLD};
+  // A file that may not grow is then an error of the write, which leaves nothing half-written.
+  std::signal(SIGXFSZ, SIG_IGN);
   try {
+    const RankWatch watch{world};
     return runTogether(world, arguments);
   } catch (const std::exception& error) {
-    abortAlone(world, error.what());
+    return endAlone(world, error.what());
   } catch (...) {
-    abortAlone(world, "unknown exception");
+    return endAlone(world, "unknown exception");
   }
 }
 

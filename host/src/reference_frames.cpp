@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "burin/common/memory_check.hpp"
 #include "burin/host/frame_maker.hpp"
 #include "burin/host/interrupt.hpp"
 #include "burin/node/reference.hpp"
@@ -50,6 +51,8 @@ class ReferenceFrames : public FrameMaker {
     if (!request.gradients.empty() || request.laplacian)
       scales =
           node::surveyedScales(node::surveyVolume(comm, *prepared.source, request), prepared.scene);
+    checkMemory(comm, {static_cast<std::int64_t>(prepared.source->info().bytes()),
+                       "the volume, whole on every rank for --reference,"});
     collectively(comm, "loading the volume",
                  [&] { renderer_.emplace(prepared.scene, *prepared.source, scales); });
   }

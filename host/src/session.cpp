@@ -4,6 +4,7 @@
 
 #include "burin/common/error.hpp"
 #include "burin/common/log.hpp"
+#include "burin/common/memory_check.hpp"
 #include "burin/common/temporary_file.hpp"
 #include "burin/host/interrupt.hpp"
 #include "burin/host/shared_error.hpp"
@@ -20,6 +21,15 @@ struct FrameReport {
 
 constexpr int kSignalExitBase = 128;  // what shells call a command that a signal ended
 
+/// What a picture takes at least, all of it on rank 0: the frame as merged, as drawn there by
+/// OpenGL or in double, and as 8 bits or encoded floats. What other ranks draw depends on the view.
+MemoryNeed pictureNeed(const Communicator& comm, ImageSize size) {
+  constexpr std::size_t kBytesPerPixel = 2 * sizeof(Rgba) + 4;
+  if (!comm.isRoot()) return {};
+  return {static_cast<std::int64_t>(size.pixels() * kBytesPerPixel),
+          fmt::format("a picture of {}x{} pixels", size.width, size.height)};
+}
+
 }  // namespace
 
 Session::Session(const Communicator& comm, const RenderOptions& options)
@@ -30,6 +40,7 @@ Session::Session(const Communicator& comm, const RenderOptions& options)
   onRoot(comm_, [&] { checkConflicts(options_, prepared_.scene.volume.file); });
   together(comm_, "the scene", [&] { checkTechnique(); });
   checkCameras();
+  checkMemory(comm_, pictureNeed(comm_, prepared_.scene.imageSize));
   if (!options_.saveScene.empty()) {
     onRoot(comm_, [&] {
       const std::string text = sceneTextFor(prepared_.scene, options_.saveScene);

@@ -62,6 +62,21 @@ std::unique_ptr<BrickRenderer> makeRenderer(const Scene& scene, const ProgramVol
   return std::make_unique<Raycaster>(scene, volume, how);
 }
 
+/// What this rank's bricks will take; `boxes`: the voxels they store.
+MemoryNeed needOf(std::span<const IndexBox> boxes, const VolumeInfo& volume,
+                  const ValueScale& scale, bool hasLaplacian) {
+  /// Macrocells and distance maps beside the texels; `resident_voxel_bytes` is held to it.
+  constexpr double kWithMaps = 1.2;
+  std::size_t voxels = 0;
+  for (const IndexBox& box : boxes) voxels += box.count();
+  const std::size_t perVoxel =
+      bytesPerTexel(volume.type, scale.hasInvalid) + (hasLaplacian ? sizeof(float) : 0);
+  const std::size_t texels = voxels * perVoxel;
+  return {
+      static_cast<std::int64_t>(kWithMaps * static_cast<double>(texels)),
+      fmt::format("{} brick{} with {} voxels", boxes.size(), boxes.size() == 1 ? "" : "s", voxels)};
+}
+
 /// Collective. Voxels straight into textures; what is staged is a few times kSlabBytes.
 void loadBricks(const Communicator& comm, BrickSource& source, std::span<const IndexBox> boxes,
                 std::span<Brick> bricks) {
@@ -231,6 +246,10 @@ void Worker::State::loadParts() {
   const bool draws = std::ranges::any_of(mine, [&](BrickId id) { return !part(id).empty(); });
   const int threads = threadShare(comm, draws);
   std::vector<IndexBox> boxes;
+  for (const BrickId id : mine)
+    if (!part(id).empty()) boxes.push_back(storedVoxels(part(id), ghosts, volume.grid));
+  const MemoryNeed need = needOf(boxes, volume, scale, hasLaplacian);
+  checkMemory(comm, need);
   collectively(comm, "preparing to draw", [&] {
     if (!draws) return;  // an idle rank needs no OpenGL
     if (!context) context.emplace(ContextOptions{threads});
@@ -240,11 +259,13 @@ void Worker::State::loadParts() {
     else
       renderer =
           makeRenderer(scene, {volume.grid, scale, survey.gradients}, options, mine.size() > 1);
+  });
+  checkMemory(comm, need);  // OpenGL has taken its part by now
+  collectively(comm, "making room for bricks", [&] {
     for (const BrickId id : mine) {
       if (part(id).empty()) continue;
       bricks.emplace_back(id, part(id), ghosts, volume, scale,
                           hasLaplacian ? std::optional{survey.laplacian999} : std::nullopt);
-      boxes.push_back(bricks.back().storedVoxels());
     }
   });
   loadBricks(comm, source, boxes, bricks);

@@ -130,6 +130,20 @@ TEST(WaitIdle, WaitingRankUsesNextToNoProcessorTime) {
   EXPECT_LE(cpuSeconds() - before, 0.05 * 2.0);
 }
 
+TEST(WaitIdle, IsWatchedAndCanBeEnded) {
+  std::vector<std::string> awaited;
+  setWaitWatch([&](const char* what) {
+    awaited.emplace_back(what);
+    throw std::runtime_error{"nobody will come"};
+  });
+  EXPECT_THROW(waitUntil([] { return false; }, "someone"), std::runtime_error);
+  EXPECT_EQ(awaited, std::vector<std::string>{"someone"});
+  setWaitWatch({});
+  int tests = 0;
+  waitUntil([&] { return ++tests > 3; });
+  EXPECT_EQ(awaited.size(), 1u);
+}
+
 TEST(MpiCount, RefusesWhatAnIntCannotHold) {
   EXPECT_EQ(mpiCount(0x7fffffffU), 0x7fffffff);
   EXPECT_THROW(mpiCount(0x80000000U), Error);

@@ -393,6 +393,14 @@ TEST_F(Render, BricksAndRanksDrawTheSamePicture) {
   EXPECT_LE(largestDifference(readPicture(path("a.exr")), readPicture(path("b.exr"))), kInvariance);
 }
 
+TEST_F(Render, MoreRanksThanCellsDrawTheSamePicture) {
+  const std::vector<std::string> twoCells{"--set", "volume.dims=[3,2,2]"};
+  draw(path("a.exr"), twoCells);
+  draw(path("b.exr"), twoCells, 4);
+  EXPECT_GT(coverage(readPicture(path("a.exr"))), 0.05);
+  EXPECT_LE(largestDifference(readPicture(path("a.exr")), readPicture(path("b.exr"))), kInvariance);
+}
+
 TEST_F(Render, ReferenceIsCloseAndTheSameOnAnyRanks) {
   draw(path("a.exr"));
   draw(path("r1.exr"), {"--reference"});

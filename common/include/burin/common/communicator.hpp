@@ -64,7 +64,14 @@ void checkMpi(int code, const char* call);
 MPI_Status waitIdle(MPI_Request& request, const char* what = "a message");
 void waitIdle(std::span<MPI_Request> requests, const char* what = "messages");
 /// Likewise, until `isDone()`, which does the testing.
-void waitUntil(const std::function<bool()>& isDone);
+void waitUntil(const std::function<bool()>& isDone, const char* what = "messages");
+
+/// Called with what is awaited, ten times a second, by every wait that lasts so long, on the thread
+/// that waits. What it throws ends the wait. One for the whole process, none at first; the
+/// program's own business, as it may know that nobody will ever answer.
+void setWaitWatch(std::function<void(const char* what)> watch);
+/// Calls it, for waits of other kinds than the above.
+void watchWait(const char* what);
 
 /// Narrows to the counts MPI takes. Throws Error{kRank} above their range.
 int mpiCount(std::size_t count);
