@@ -28,7 +28,8 @@ add_custom_command(
   COMMENT "Embedding shaders" VERBATIM)
 
 burin_library(node
-  SOURCES src/gl.cpp src/osmesa_context.cpp src/offscreen_context.cpp src/thread_share.cpp src/shader_source.cpp
+  SOURCES src/gl.cpp src/osmesa_context.cpp src/egl_context.cpp src/offscreen_context.cpp
+          src/thread_share.cpp src/shader_source.cpp
           src/gl_program.cpp src/curve_code.cpp src/program_generator.cpp src/transfer_integral.cpp src/transfer_table.cpp
           src/visible_values.cpp src/value_scale.cpp src/value_ranges.cpp src/clip_planes.cpp
           src/visible_blocks.cpp src/macrocells.cpp src/chessboard_distance.cpp
@@ -39,3 +40,5 @@ burin_library(node
   PUBLIC burin::volumes burin::compositor
   PRIVATE $<BUILD_INTERFACE:burin_gl_loader> ${CMAKE_DL_LIBS})
 burin_unity(burin_node)
+# Opens a library and makes a context, as osmesa_context.cpp does.
+set_source_files_properties(src/egl_context.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)

@@ -3,6 +3,7 @@
 #include <cstdlib>
 
 #include "burin/common/error.hpp"
+#include "egl_context.hpp"
 #include "gl.hpp"
 #include "osmesa_context.hpp"
 
@@ -10,7 +11,12 @@ namespace burin::node {
 namespace {
 
 GLADapiproc functionOf(void* backend, const char* name) {
-  return static_cast<const OsMesaContext*>(backend)->function(name);
+  return static_cast<const GlLibraryContext*>(backend)->function(name);
+}
+
+std::unique_ptr<GlLibraryContext> makeBackend(GlBackend backend) {
+  if (backend == GlBackend::kEgl) return std::make_unique<EglContext>();
+  return std::make_unique<OsMesaContext>();
 }
 
 /// llvmpipe reads its thread count once, when its screen is made; a user's own setting stands.
@@ -18,20 +24,40 @@ void setRasteriserThreads(int threads) {
   if (threads > 0) setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 0);
 }
 
+/// Of this thread. Mesa's libraries share what they call the current context, but each remembers
+/// its own: one that thinks that its context is current still does nothing when asked for it again.
+/// So whoever comes next makes the one before let go.
+thread_local GlLibraryContext* current = nullptr;
+
+bool bind(GlLibraryContext& next) noexcept {
+  if (current != nullptr && current != &next) current->release();
+  current = &next;
+  return next.makeCurrent();
+}
+
 }  // namespace
 
 struct OffscreenContext::State {
-  OsMesaContext backend;
+  explicit State(GlBackend library) : backend{makeBackend(library)} {}
+  ~State() {
+    if (current != backend.get()) return;
+    backend->release();
+    current = nullptr;
+  }
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
+
+  std::unique_ptr<GlLibraryContext> backend;
   GladGLContext gl{};
 };
 
 OffscreenContext::OffscreenContext(const ContextOptions& options) {
   setRasteriserThreads(options.threads);
-  state_ = std::make_unique<State>();
-  if (!state_->backend.makeCurrent())
-    fail(ExitCode::kRank, "OSMesa could not make its context current");
-  if (gladLoadGLContextUserPtr(&state_->gl, functionOf, &state_->backend) == 0)
-    fail(ExitCode::kRank, "the OpenGL functions of OSMesa could not be loaded");
+  state_ = std::make_unique<State>(options.backend);
+  if (!bind(*state_->backend))
+    fail(ExitCode::kRank, "{} could not make its context current", name(options.backend));
+  if (gladLoadGLContextUserPtr(&state_->gl, functionOf, state_->backend.get()) == 0)
+    fail(ExitCode::kRank, "the OpenGL functions of {} could not be loaded", name(options.backend));
   setCurrentGl(&state_->gl);
 }
 
@@ -40,7 +66,7 @@ OffscreenContext::~OffscreenContext() {
 }
 
 void OffscreenContext::makeCurrent() noexcept {
-  state_->backend.makeCurrent();
+  bind(*state_->backend);
   setCurrentGl(&state_->gl);
 }
 
@@ -48,11 +74,21 @@ const GladGLContext& OffscreenContext::gl() const {
   return state_->gl;
 }
 
-std::string OffscreenContext::description() const {
+GlDescription OffscreenContext::description() const {
   const auto text = [this](GLenum name) {
-    return reinterpret_cast<const char*>(state_->gl.GetString(name));
+    return std::string{reinterpret_cast<const char*>(state_->gl.GetString(name))};
   };
-  return fmt::format("{}, OpenGL {}", text(GL_RENDERER), text(GL_VERSION));
+  const auto number = [this](GLenum name) {
+    GLint value = 0;
+    state_->gl.GetIntegerv(name, &value);
+    return value;
+  };
+  return {text(GL_VENDOR), text(GL_RENDERER), text(GL_VERSION), number(GL_MAX_3D_TEXTURE_SIZE),
+          number(GL_MAX_TEXTURE_SIZE)};
+}
+
+const char* name(GlBackend backend) {
+  return backend == GlBackend::kEgl ? "EGL" : "OSMesa";
 }
 
 }  // namespace burin::node

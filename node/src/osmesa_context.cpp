@@ -1,34 +1,24 @@
 #include "osmesa_context.hpp"
 
 #include <GL/osmesa.h>
-#include <dlfcn.h>
 
 #include <array>
 #include <type_traits>
 
-#include "burin/common/error.hpp"
+#include "shared_library.hpp"
 
 namespace burin::node {
 namespace {
 
-struct CloseLibrary {
-  void operator()(void* handle) const noexcept { dlclose(handle); }
-};
-using Library = std::unique_ptr<void, CloseLibrary>;
+constexpr const char* kLibrary = "libOSMesa";
 
-Library openLibrary() {
+SharedLibrary openLibrary() {
   for (const char* name : {"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"}) {
-    if (void* handle = dlopen(name, RTLD_NOW | RTLD_LOCAL)) return Library{handle};
+    if (void* handle = dlopen(name, RTLD_NOW | RTLD_LOCAL)) return SharedLibrary{handle};
   }
   fail(ExitCode::kRank,
-       "no off-screen OpenGL: libOSMesa.so.8 cannot be opened; install the package libosmesa6");
-}
-
-template <typename Function>
-Function* resolve(const Library& library, const char* name) {
-  void* symbol = dlsym(library.get(), name);
-  if (symbol == nullptr) fail(ExitCode::kRank, "libOSMesa has no function {}", name);
-  return reinterpret_cast<Function*>(symbol);
+       "no off-screen OpenGL: libOSMesa.so.8 cannot be opened; install the package libosmesa6, or "
+       "try --gl egl");
 }
 
 struct DestroyContext {
@@ -37,7 +27,7 @@ struct DestroyContext {
 };
 using ContextHandle = std::unique_ptr<std::remove_pointer_t<OSMesaContext>, DestroyContext>;
 
-ContextHandle createContext(const Library& library) {
+ContextHandle createContext(const SharedLibrary& library) {
   constexpr std::array kAttributes{OSMESA_FORMAT,
                                    OSMESA_RGBA,
                                    OSMESA_DEPTH_BITS,
@@ -53,10 +43,11 @@ ContextHandle createContext(const Library& library) {
                                    OSMESA_CONTEXT_MINOR_VERSION,
                                    5,
                                    0};
-  const auto create =
-      resolve<decltype(OSMesaCreateContextAttribs)>(library, "OSMesaCreateContextAttribs");
-  ContextHandle context{create(kAttributes.data(), nullptr),
-                        {resolve<decltype(OSMesaDestroyContext)>(library, "OSMesaDestroyContext")}};
+  const auto create = resolve<decltype(OSMesaCreateContextAttribs)>(library, kLibrary,
+                                                                    "OSMesaCreateContextAttribs");
+  const auto destroy =
+      resolve<decltype(OSMesaDestroyContext)>(library, kLibrary, "OSMesaDestroyContext");
+  ContextHandle context{create(kAttributes.data(), nullptr), {destroy}};
   if (!context) fail(ExitCode::kRank, "OSMesa refused an OpenGL 4.5 core context");
   return context;
 }
@@ -64,7 +55,7 @@ ContextHandle createContext(const Library& library) {
 }  // namespace
 
 struct OsMesaContext::State {
-  Library library;  // first: closed after everything that came out of it
+  SharedLibrary library;  // first: closed after everything that came out of it
   ContextHandle context;
   std::array<unsigned char, 4> defaultBuffer{};  // OSMesa wants one; we draw into our own targets
   decltype(&OSMesaMakeCurrent) makeCurrent = nullptr;
@@ -75,9 +66,10 @@ OsMesaContext::OsMesaContext() : state_{std::make_unique<State>()} {
   State& state = *state_;
   state.library = openLibrary();
   state.context = createContext(state.library);
-  state.makeCurrent = resolve<decltype(OSMesaMakeCurrent)>(state.library, "OSMesaMakeCurrent");
+  state.makeCurrent =
+      resolve<decltype(OSMesaMakeCurrent)>(state.library, kLibrary, "OSMesaMakeCurrent");
   state.getFunction =
-      resolve<decltype(OSMesaGetProcAddress)>(state.library, "OSMesaGetProcAddress");
+      resolve<decltype(OSMesaGetProcAddress)>(state.library, kLibrary, "OSMesaGetProcAddress");
 }
 
 OsMesaContext::~OsMesaContext() = default;
@@ -85,6 +77,10 @@ OsMesaContext::~OsMesaContext() = default;
 bool OsMesaContext::makeCurrent() noexcept {
   return state_->makeCurrent(state_->context.get(), state_->defaultBuffer.data(), GL_UNSIGNED_BYTE,
                              1, 1) != GL_FALSE;
+}
+
+void OsMesaContext::release() noexcept {
+  state_->makeCurrent(nullptr, nullptr, 0, 0, 0);
 }
 
 OsMesaContext::Function OsMesaContext::function(const char* name) const {

@@ -2,23 +2,20 @@
 
 #include <memory>
 
+#include "gl_library_context.hpp"
+
 namespace burin::node {
 
-/// Mesa's off-screen rasteriser, opened with dlopen: a core 4.5 context. The only class that knows
-/// OSMesa.
-class OsMesaContext {
+/// Mesa's off-screen rasteriser, opened with dlopen. The only class that knows OSMesa.
+class OsMesaContext : public GlLibraryContext {
  public:
-  using Function = void (*)();
-
   /// Throws Error{kRank} naming the library and its package, or what was refused.
   OsMesaContext();
-  ~OsMesaContext();
+  ~OsMesaContext() override;
 
-  /// Makes it this thread's context; whether that was possible.
-  bool makeCurrent() noexcept;
-
-  /// Address of an OpenGL function; nullptr if there is none.
-  Function function(const char* name) const;
+  bool makeCurrent() noexcept override;
+  void release() noexcept override;
+  Function function(const char* name) const override;
 
  private:
   struct State;

@@ -252,7 +252,7 @@ void Worker::State::loadParts() {
   checkMemory(comm, need);
   collectively(comm, "preparing to draw", [&] {
     if (!draws) return;  // an idle rank needs no OpenGL
-    if (!context) context.emplace(ContextOptions{threads});
+    if (!context) context.emplace(ContextOptions{threads, options.gl});
     context->makeCurrent();
     if (renderer)
       renderer->setScene(scene);

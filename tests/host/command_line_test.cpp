@@ -45,6 +45,19 @@ TEST(CommandLine, RenderHasTheDocumentedDefaults) {
   EXPECT_FALSE(options.reference);
 }
 
+TEST(CommandLine, WhereOpenGlComesFrom) {
+  EXPECT_EQ(parseRender({"s.json"}).worker.gl, node::GlBackend::kOsMesa);
+  EXPECT_EQ(parseRender({"s.json", "--gl", "osmesa"}).worker.gl, node::GlBackend::kOsMesa);
+  EXPECT_EQ(parseRender({"s.json", "--gl", "egl"}).worker.gl, node::GlBackend::kEgl);
+  EXPECT_NE(usageError({"render", "s.json", "--gl", "egl", "--reference"}), "");
+}
+
+TEST(CommandLine, InfoIsAboutAVolumeOrTheProgram) {
+  EXPECT_TRUE(std::get<InfoOptions>(parse({"info", "--build"})).isBuild);
+  EXPECT_FALSE(std::get<InfoOptions>(parse({"info", "v.raw"})).isBuild);
+  EXPECT_NE(usageError({"info", "v.raw", "--build"}), "");
+}
+
 TEST(CommandLine, Techniques) {
   const RenderOptions rays = parseRender({"s.json"});
   EXPECT_EQ(rays.worker.technique, node::Technique::kRaycast);
@@ -220,6 +233,7 @@ INSTANTIATE_TEST_SUITE_P(
                       BadUsage{{"render", "s.json", "--type", "u64"}, "u64"},
                       BadUsage{{"render", "s.json", "--endian", "middle"}, "middle"},
                       BadUsage{{"render", "s.json", "--skip", "maybe"}, "maybe"},
+                      BadUsage{{"render", "s.json", "--gl", "glx"}, "glx"},
                       BadUsage{{"render", "s.json", "--bricks", "0"}, "--bricks"},
                       BadUsage{{"render", "s.json", "--bricks", "many"}, "--bricks"},
                       BadUsage{{"render", "s.json", "--frames", "0"}, "--frames"},

@@ -38,6 +38,7 @@ struct Render {
   std::string skip = "on";
   std::string technique = "raycast";
   std::string precision = "float";
+  std::string gl = "osmesa";
   std::string schedule = "auto";
   std::string wire = "float";
   std::string link = "auto";
@@ -83,6 +84,9 @@ void addRunOptions(OptionList& list, Render& render) {
       .excludes(reference);
   list.choice("--precision", render.precision, {"float", "half", "byte"},
               "Of the framebuffer that slices are blended in: 32, 16 or 8 bits (float)");
+  list.choice("--gl", render.gl, {"osmesa", "egl"},
+              "Where OpenGL comes from; EGL finds graphics cards (osmesa)")
+      .excludes(reference);
   list.flag("--quiet", options.quiet, "Say nothing but warnings and errors");
 }
 
@@ -154,6 +158,7 @@ RenderOptions finished(const Render& render, int ranks) {
   options.raw = rawLayout(render.raw);
   options.worker.skip = render.skip == "on";
   setTechnique(options.worker, render);
+  if (render.gl == "egl") options.worker.gl = node::GlBackend::kEgl;
   options.merge = mergeOptions(render);
   return options;
 }

@@ -12,6 +12,7 @@
 #include "burin/common/statistics.hpp"
 #include "burin/compositor/subimage.hpp"
 #include "burin/node/brick_source.hpp"
+#include "burin/node/offscreen_context.hpp"
 #include "burin/node/step_map.hpp"
 #include "burin/node/survey.hpp"
 #include "burin/node/technique.hpp"
@@ -30,6 +31,7 @@ struct WorkerOptions {
   bool wholeBricks = false;
   Technique technique = Technique::kRaycast;
   Precision precision = Precision::kFloat;  ///< kRaycast: must be kFloat
+  GlBackend gl = GlBackend::kOsMesa;
   /// Overrides what the scene's styles declare: tests show with it that the declaration is needed.
   std::optional<int> ghostLayers = std::nullopt;
 };
