@@ -82,6 +82,7 @@ std::span<std::byte> Compositor::frameBytes(const CompositeOptions& options, std
 const FramePlan& Compositor::agreeOnPlan(const CompositeOptions& options, const TileGrid& grid,
                                          std::span<const Rank> order, FrameNotice& notice,
                                          Outcome drawing, std::size_t pixelBytes) {
+  const TraceSpan span{"plan"};
   notice.memory = hosts_.notice();
   const auto allGather = [&](std::span<const std::byte> mine) {
     return exchange_ ? exchange_->allGather(mine) : allGatherBytes(*comm_, mine);

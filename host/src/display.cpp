@@ -42,8 +42,10 @@ constexpr std::string_view kTheScene = "the scene";
 }  // namespace
 
 void checkConflicts(const RenderOptions& options, const fs::path& volume) {
-  const NamedFile outputs[] = {
-      {"-o", frameFile(options, 0)}, {"--stats", options.stats}, {kSaveScene, options.saveScene}};
+  const NamedFile outputs[] = {{"-o", frameFile(options, 0)},
+                               {"--stats", options.stats},
+                               {"--trace", options.trace},
+                               {kSaveScene, options.saveScene}};
   const NamedFile inputs[] = {{kTheScene, isSceneFile(options.input) ? options.input : ""},
                               {"the volume", volume}};
   for (const NamedFile& output : outputs) {
@@ -66,6 +68,7 @@ void checkOutputs(const RenderOptions& options) {
   checkConflicts(options, volumeGiven ? options.input : options.volume);
   checkWritable(frameFile(options, 0));
   if (!options.stats.empty()) checkWritable(options.stats);
+  if (!options.trace.empty()) checkWritable(options.trace);
   if (!options.saveScene.empty()) checkWritable(options.saveScene);
 }
 

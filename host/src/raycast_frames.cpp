@@ -25,7 +25,7 @@ class RaycastFrames : public FrameMaker {
     if (!maxError_ || isAdaptive_) return draw(camera, statistics, nullptr);
     node::StepMap steps;
     {
-      const PhaseTimer timer{statistics.phases[Phase::kUpdate]};
+      const PhaseTimer timer{statistics.phases, Phase::kUpdate};
       steps = chooseSteps(comm_, camera, *maxError_ - terminationOf(*maxError_),
                           [&](const Camera& small, const node::StepMap& probe) {
                             RankStatistics probing;
@@ -58,7 +58,7 @@ class RaycastFrames : public FrameMaker {
     compositor::SubimageView<Rgba> mine{camera.image, {}, {}};
     Outcome drawing;
     {
-      const PhaseTimer timer{statistics.phases[Phase::kDraw]};
+      const PhaseTimer timer{statistics.phases, Phase::kDraw};
       // Pixels are read back to where the other ranks of the host read them.
       drawing = attempt([&] {
         mine = worker_.draw(

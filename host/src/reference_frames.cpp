@@ -62,10 +62,10 @@ class ReferenceFrames : public FrameMaker {
     std::vector<Rgba> mine;
     Outcome drawing;
     {
-      const PhaseTimer timer{statistics.phases[Phase::kDraw]};
+      const PhaseTimer timer{statistics.phases, Phase::kDraw};
       drawing = attempt([&] { mine = drawRows(camera, share); });
     }
-    const PhaseTimer timer{statistics.phases[Phase::kGather]};
+    const PhaseTimer timer{statistics.phases, Phase::kGather};
     agree(comm_, "drawing", std::move(drawing));
     frame_ = gather(camera.image, share, mine);
     return frame_;

@@ -8,6 +8,7 @@
 #include "burin/common/temporary_file.hpp"
 #include "burin/host/interrupt.hpp"
 #include "burin/host/shared_error.hpp"
+#include "burin/host/trace_file.hpp"
 
 namespace burin::host {
 
@@ -34,6 +35,8 @@ MemoryNeed pictureNeed(const Communicator& comm, ImageSize size) {
 
 Session::Session(const Communicator& comm, const RenderOptions& options)
     : comm_{comm}, options_{options}, progress_{comm.isRoot() && !options.quiet} {
+  if (!options_.trace.empty()) trace_.emplace();
+  const TraceSpan setUp{"set up"};
   onRoot(comm_, [&] { deferInterrupts([&] { checkOutputs(options_); }); });
   progress_.show("reading the volume");
   prepared_ = prepareScene(comm_, options_);
@@ -100,6 +103,7 @@ int Session::run() {
   progress_.clear();
   if (!options_.stats.empty())
     onRoot(comm_, [&] { writeTextFile(options_.stats, statisticsJson(statistics_)); });
+  if (trace_) writeTrace(comm_, *trace_, options_.trace);
   if (comm_.isRoot()) reportResult();
   return static_cast<int>(ExitCode::kDone);
 }
@@ -136,16 +140,16 @@ Outcome Session::draw(int index, FrameStatistics& frame, RankStatistics& mine) {
     mine.bricks = drawn_.bricks;
     mine.residentVoxelBytes = drawn_.residentVoxelBytes;
   } else {
-    const PhaseTimer whole{frame.frameMs};
+    const PhaseTimer whole{frame.frameMs, "frame"};
     Camera camera;
     {
-      const PhaseTimer timer{mine.phases[Phase::kUpdate]};
+      const PhaseTimer timer{mine.phases, Phase::kUpdate};
       camera = resolveCamera(prepared_.scene, prepared_.facts, orbit);
     }
     const ImageView<const Rgba> image = frames_->make(camera, mine);
     frame.composite = frames_->lastComposite();
     if (display_) {
-      const PhaseTimer timer{mine.phases[Phase::kFinish]};
+      const PhaseTimer timer{mine.phases, Phase::kFinish};
       finishing = attempt([&] { display_->finish(image); });
     }
     drawnDeg_ = orbit;
@@ -158,7 +162,7 @@ Outcome Session::draw(int index, FrameStatistics& frame, RankStatistics& mine) {
 void Session::writeFrame(int index, FrameStatistics& frame) {
   RankStatistics& root = frame.ranks.front();
   onRoot(comm_, [&] {
-    const PhaseTimer timer{root.phases[Phase::kWrite]};
+    const PhaseTimer timer{root.phases, Phase::kWrite};
     display_->write(index, orbitDeg(index));
   });
   frame.phases = root.phases;

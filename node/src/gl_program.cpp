@@ -3,6 +3,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "burin/common/error.hpp"
+#include "burin/common/trace.hpp"
 
 namespace burin::node {
 namespace {
@@ -27,6 +28,7 @@ Shader compile(GLenum stage, const ShaderSource& source) {
 
 GlProgram::GlProgram(const ShaderSource& vertex, const ShaderSource& fragment)
     : program_{gl().CreateProgram()} {
+  const TraceSpan span{"compile"};
   const Shader vertexShader = compile(GL_VERTEX_SHADER, vertex);
   const Shader fragmentShader = compile(GL_FRAGMENT_SHADER, fragment);
   const GLuint id = program_.id();

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "burin/common/error.hpp"
+#include "burin/common/trace.hpp"
 #include "gradient_survey.hpp"
 #include "laplacian_survey.hpp"
 #include "range_survey.hpp"
@@ -119,6 +120,7 @@ class DerivativeSurveys {
 
 VolumeSurvey surveyVolume(const Communicator& comm, BrickSource& source,
                           const SurveyRequest& request) {
+  const TraceSpan span{"survey"};
   const VolumeInfo& info = source.info();
   const SliceShare share = shareOf(comm, info.grid.dims.z);
   constexpr float kLargest = std::numeric_limits<float>::max();

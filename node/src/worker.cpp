@@ -6,7 +6,8 @@
 
 #include "brick.hpp"
 #include "burin/common/error.hpp"
-#include "burin/node/offscreen_context.hpp"
+#include "burin/common/memory_check.hpp"
+#include "burin/common/trace.hpp"
 #include "burin/node/thread_share.hpp"
 #include "clip_planes.hpp"
 #include "cost_estimate.hpp"
@@ -81,10 +82,14 @@ MemoryNeed needOf(std::span<const IndexBox> boxes, const VolumeInfo& volume,
 void loadBricks(const Communicator& comm, BrickSource& source, std::span<const IndexBox> boxes,
                 std::span<Brick> bricks) {
   constexpr std::size_t kSlabBytes = std::size_t{8} << 20;
+  const TraceSpan loading{"load"};
   StagingBuffer staging;
   readSlabs(
       comm, source, boxes,
-      [&](const Slab& slab) { bricks[slab.request].upload(slab.box, slab.voxels, staging); },
+      [&](const Slab& slab) {
+        const TraceSpan span{"upload"};
+        bricks[slab.request].upload(slab.box, slab.voxels, staging);
+      },
       kSlabBytes);
 }
 
@@ -277,6 +282,7 @@ void Worker::State::loadParts() {
 
 /// Local. What the scene can show of each brick.
 void Worker::State::classify() {
+  const TraceSpan span{"classify"};
   for (Brick& brick : bricks) brick.classify(shown.values, shown.clipPlanes);
 }
 

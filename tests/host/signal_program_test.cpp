@@ -39,7 +39,7 @@ TEST_P(Signal, EndsTheProgramAndLeavesWholeFilesOnly) {
     SCOPED_TRACE(seconds);
     const auto result = runBurin(
         {"render", scene, "-o", folder / "a.exr", "--frames", "100000", "--stats",
-         folder / "t.json"},
+         folder / "t.json", "--trace", folder / "c.json"},
         GetParam().ranks,
         fmt::format("timeout -s {} --preserve-status -k 10 {}", GetParam().signal, seconds));
     EXPECT_NE(result.exitCode, 0);

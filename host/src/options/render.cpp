@@ -70,6 +70,8 @@ void addRunOptions(OptionList& list, Render& render) {
             "Rank 0 only collects and writes; needs two ranks or more");
   list.path("--stats", options.stats, "FILE.json",
             "Write times and counters of each frame and rank");
+  list.path("--trace", options.trace, "FILE.json",
+            "Write when each rank did what, for ui.perfetto.dev or chrome://tracing");
   list.flag("--count-samples", options.worker.countSamples, "Count samples for --stats (slower)")
       .needs("--stats");
   list.flag("--redraw", options.redraw,

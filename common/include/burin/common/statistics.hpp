@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "burin/common/trace.hpp"
+
 namespace burin {
 
 /// The phases of a frame, in order. Names are those of the `--stats` contract.
@@ -68,19 +70,24 @@ std::string statisticsJson(const RunStatistics& run);
 /// Largest resident set this process has had so far, from the kernel.
 std::int64_t peakResidentBytes();
 
-/// Adds the time of its scope to a phase.
+/// Adds the time of its scope to a number of milliseconds, and to the recorded trace.
 class PhaseTimer {
  public:
-  explicit PhaseTimer(double& ms) : ms_{ms}, start_{std::chrono::steady_clock::now()} {}
+  /// `name`: in the trace; nullptr: not in it.
+  explicit PhaseTimer(double& ms, const char* name = nullptr)
+      : ms_{ms}, name_{name}, start_{std::chrono::steady_clock::now()} {}
+  PhaseTimer(PhaseTimes& times, Phase phase) : PhaseTimer{times[phase], phaseName(phase)} {}
   ~PhaseTimer() {
-    ms_ += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_)
-               .count();
+    const auto end = std::chrono::steady_clock::now();
+    ms_ += std::chrono::duration<double, std::milli>(end - start_).count();
+    if (name_ != nullptr) recordSpan({name_, -1, start_, end});
   }
   PhaseTimer(const PhaseTimer&) = delete;
   PhaseTimer& operator=(const PhaseTimer&) = delete;
 
  private:
   double& ms_;
+  const char* name_;
   std::chrono::steady_clock::time_point start_;
 };
 

@@ -77,7 +77,7 @@ class Compositor {
       const CompositeOptions& options, std::span<const Rank> order,
       const SubimageView<typename A::Pixel>& mine, Outcome drawing, RankStatistics& statistics) {
     using Pixel = typename A::Pixel;
-    std::optional<PhaseTimer> timer{std::in_place, statistics.phases[Phase::kComposite]};
+    std::optional<PhaseTimer> timer{std::in_place, statistics.phases, Phase::kComposite};
     const bool isRoot = comm_->rank() == options.root;
     const TileGrid grid{mine.frame};
     SparseImage<Pixel> image;
@@ -100,7 +100,7 @@ class Compositor {
     Participant<A> participant{plan, spaces_, image, frame, memory()};
     const auto run = [&](auto&& flow) {
       runFrame(flow, options, comm_->rank(), isPacking_, spaces_, participant, frame,
-               [&] { timer.emplace(statistics.phases[Phase::kGather]); });
+               [&] { timer.emplace(statistics.phases, Phase::kGather); });
     };
     if (isSharing_ && exchange_) {
       run(HostFlow{*exchange_, spaces_});

@@ -3,6 +3,7 @@
 #include <functional>
 #include <vector>
 
+#include "burin/common/trace.hpp"
 #include "burin/compositor/participant.hpp"
 
 namespace burin::compositor {
@@ -31,6 +32,7 @@ concept MessageFlow = requires(F flow, Rank rank, Tag tag, std::span<const std::
 template <PixelAlgebra A, MessageFlow F>
 void execute(F& flow, int self, const Plan& steps, bool isPacked, Participant<A>& participant) {
   const FramePlan& plan = participant.plan();
+  int number = 0;  // of the round
   for (std::size_t i = 0; i < steps.steps.size();) {
     const Step& step = steps.steps[i];
     if (step.kind == Step::Kind::kSend) {
@@ -40,12 +42,16 @@ void execute(F& flow, int self, const Plan& steps, bool isPacked, Participant<A>
       ++i;
       continue;
     }
+    const TraceSpan span{"round", number++};
     std::vector<Received> round;
     for (const std::size_t end = roundEnd(steps.steps, i); i < end; ++i) {
       const int peer = steps.steps[i].peer;
       round.push_back({peer, plan.rankOf(peer), {}});
     }
-    flow.receive(Tag::kSwap, round, [&](std::size_t bytes) { return participant.room(bytes); });
+    {
+      const TraceSpan waiting{"receive"};
+      flow.receive(Tag::kSwap, round, [&](std::size_t bytes) { return participant.room(bytes); });
+    }
     participant.combine(step.region, self, round, i == steps.steps.size());
   }
 }

@@ -48,6 +48,7 @@ struct RenderOptions {
   bool reference = false;
   bool quiet = false;
   std::filesystem::path stats;      ///< empty: none
+  std::filesystem::path trace;      ///< empty: none
   std::filesystem::path saveScene;  ///< empty: no
 };
 

@@ -5,6 +5,7 @@
 
 #include "burin/common/communicator.hpp"
 #include "burin/common/statistics.hpp"
+#include "burin/common/trace.hpp"
 #include "burin/host/command_line.hpp"
 #include "burin/host/display.hpp"
 #include "burin/host/frame_maker.hpp"
@@ -40,6 +41,7 @@ class Session {
 
   const Communicator& comm_;
   const RenderOptions& options_;
+  std::optional<TraceRecording> trace_;
   Progress progress_;
   PreparedScene prepared_;
   std::unique_ptr<FrameMaker> frames_;
