@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include "build_info.hpp"
 #include "burin/host/commands.hpp"
 #include "burin/host/histogram.hpp"
 #include "burin/host/scene_setup.hpp"
@@ -59,6 +60,10 @@ std::string describeValues(const node::VolumeSurvey& survey) {
 }  // namespace
 
 int runCommand(const Communicator& comm, const InfoOptions& options) {
+  if (options.isBuild) {
+    std::fputs(buildInfo(comm).c_str(), stdout);
+    return 0;
+  }
   VolumeChoice choice;
   choice.file = options.volume;
   options.raw.applyTo(choice);

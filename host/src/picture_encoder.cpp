@@ -33,6 +33,12 @@ extern "C" void burinEncodePicture(const PictureToEncode& picture, EncodedPictur
   if (!isWhole) encoded.error = out->geterror();
 }
 
+extern "C" const char* burinPictureLibrary() {
+  static const std::string version = OIIO::get_string_attribute("version", OIIO_VERSION_STRING);
+  return version.c_str();
+}
+
 static_assert(std::is_same_v<decltype(burinEncodePicture), EncodePicture>);
+static_assert(std::is_same_v<decltype(burinPictureLibrary), PictureLibrary>);
 
 }  // namespace burin::host

@@ -24,10 +24,13 @@ struct EncodedPicture {
   std::string error;                 ///< why there is none, else ""
 };
 
-/// The one function of the module burin_pictures, under the name kEncodePicture. The module alone
+/// The function of the module burin_pictures of the name kEncodePicture. The module alone
 /// is linked with OpenImageIO, whose 250 libraries take 0.4 s of processor time and 110 MB to load:
 /// only a process that writes pictures opens it.
 using EncodePicture = void(const PictureToEncode& picture, EncodedPicture& encoded);
 inline constexpr const char* kEncodePicture = "burinEncodePicture";
+/// Likewise: OpenImageIO's version.
+using PictureLibrary = const char*();
+inline constexpr const char* kPictureLibrary = "burinPictureLibrary";
 
 }  // namespace burin::host

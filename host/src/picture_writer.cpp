@@ -21,18 +21,19 @@ fs::path moduleFile() {
   return (program.parent_path() / BURIN_PICTURES_MODULE).lexically_normal();
 }
 
-/// Never closed: OpenImageIO has threads of its own.
-EncodePicture* openEncoder() {
+/// A function of the module, which is never closed: OpenImageIO has threads of its own.
+template <typename Function>
+Function* functionOfModule(const char* name) {
   // Lazy, as programs are linked: binding every function of every library would take seconds.
-  void* const library = dlopen(moduleFile().c_str(), RTLD_LAZY | RTLD_LOCAL);
-  void* const function = library == nullptr ? nullptr : dlsym(library, kEncodePicture);
+  static void* const library = dlopen(moduleFile().c_str(), RTLD_LAZY | RTLD_LOCAL);
+  void* const function = library == nullptr ? nullptr : dlsym(library, name);
   // NOLINTNEXTLINE(concurrency-mt-unsafe): one thread
   if (function == nullptr) fail(ExitCode::kRank, "no pictures can be written: {}", dlerror());
-  return reinterpret_cast<EncodePicture*>(function);
+  return reinterpret_cast<Function*>(function);
 }
 
 EncodePicture& encoder() {
-  static EncodePicture* const function = openEncoder();
+  static EncodePicture* const function = functionOfModule<EncodePicture>(kEncodePicture);
   return *function;
 }
 
@@ -63,6 +64,10 @@ void writePicture(const fs::path& target, const PictureToEncode& picture) {
 
 void loadPictureEncoder() {
   encoder();
+}
+
+std::string pictureLibraryVersion() {
+  return functionOfModule<PictureLibrary>(kPictureLibrary)();
 }
 
 void writePng(const fs::path& target, const DisplayPicture& picture,

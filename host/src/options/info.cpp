@@ -1,5 +1,6 @@
 #include <memory>
 
+#include "burin/common/error.hpp"
 #include "options/describe.hpp"
 #include "options/volume_input.hpp"
 
@@ -11,9 +12,14 @@ Finish describeInfo(OptionList& list) {
     RawText raw;
   };
   const auto info = std::make_shared<Info>();
-  list.text("VOLUME", info->options.volume, "FILE", "The volume").required();
+  const Option volume = list.text("VOLUME", info->options.volume, "FILE", "The volume");
+  list.flag("--build", info->options.isBuild,
+            "Describe the program instead: versions, OpenGL, threads, limits")
+      .excludes(volume);
   addRawOptions(list, info->raw);
   return [info](int) {
+    if (!info->options.isBuild && info->options.volume.empty())
+      fail(ExitCode::kUsage, "info: expected a VOLUME, or --build");
     info->options.raw = rawLayout(info->raw);
     return info->options;
   };

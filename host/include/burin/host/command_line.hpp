@@ -54,8 +54,9 @@ struct RenderOptions {
 
 /// burin info
 struct InfoOptions {
-  std::string volume;
+  std::string volume;  ///< empty if isBuild
   RawLayout raw;
+  bool isBuild = false;  ///< --build: about the program instead of a volume
 };
 
 /// burin make-volume

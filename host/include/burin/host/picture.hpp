@@ -37,6 +37,8 @@ struct PictureMetadata {
 /// Loads the module that encodes pictures, which writePng and writeExr do themselves: so that a
 /// broken installation is found before anything is drawn. Throws Error{kRank}.
 void loadPictureEncoder();
+/// Of OpenImageIO, as loaded. Throws likewise.
+std::string pictureLibraryVersion();
 
 /// Write a whole file under a temporary name, then rename it. PNG: 8 bits. EXR: float,
 /// premultiplied linear RGBA. Metadata: "Software", "burin:version", "burin:scene",
