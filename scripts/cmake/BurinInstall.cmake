@@ -4,6 +4,7 @@
 include(CMakePackageConfigHelpers)
 set(burin_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/burin)
 
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME development)
 install(TARGETS burin_core burin_scene burin_wire burin_mpi burin_compositor EXPORT burinTargets)
 install(DIRECTORY common/include/ compositor/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
         FILES_MATCHING PATTERN "*.hpp")
@@ -15,6 +16,7 @@ write_basic_package_version_file(${CMAKE_BINARY_DIR}/burinConfigVersion.cmake
 install(FILES ${CMAKE_BINARY_DIR}/burinConfig.cmake ${CMAKE_BINARY_DIR}/burinConfigVersion.cmake
         DESTINATION ${burin_package_dir})
 
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME program)
 install(TARGETS burin RUNTIME)
 install(TARGETS burin_pictures LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/burin)
 install(DIRECTORY configs/ DESTINATION ${CMAKE_INSTALL_DATADIR}/burin/configs
