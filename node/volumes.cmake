@@ -2,15 +2,19 @@
 burin_library(volumes
   SOURCES src/brick_source.cpp src/open_volume.cpp src/stored_voxels.cpp src/byte_order.cpp
           src/voxel_access.cpp src/file_handle.cpp src/gzip_stream.cpp
-          src/raw_source.cpp src/gzip_source.cpp src/scaled_source.cpp
-          src/nrrd_reader.cpp src/nifti_reader.cpp src/raw_reader.cpp src/raw_name.cpp
+          src/stored_type.cpp src/stored_reader.cpp src/stored_source.cpp src/raw_voxels.cpp
+          src/streamed_voxels.cpp src/text_stream.cpp
+          src/nrrd_reader.cpp src/nifti_reader.cpp
+          src/text_fields.cpp
+          src/raw_reader.cpp src/raw_name.cpp
           src/procedural.cpp src/vessel_tree.cpp src/ct_phantom.cpp
           src/volume_writer.cpp src/gzip_writer.cpp src/nrrd_header.cpp src/nifti_header.cpp
           src/slab_reading.cpp src/slab_scatter.cpp
           src/survey.cpp src/range_survey.cpp src/gradient_survey.cpp src/operator_weights.cpp
           src/smoothed_laplacian.cpp src/laplacian_survey.cpp
   PUBLIC burin::scene burin::mpi
-  PRIVATE Teem::teem NIFTI::nifti2 ZLIB::ZLIB)
+  PRIVATE Teem::teem NIFTI::nifti2
+          ZLIB::ZLIB)
 burin_unity(burin_volumes)
 # It has a readHeader of its own, as nrrd_reader.cpp does.
 set_source_files_properties(src/nifti_reader.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)

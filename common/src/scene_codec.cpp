@@ -172,6 +172,11 @@ Codec<glm::dvec4> clipPlaneVector() {
   return codec;
 }
 
+Codec<int> wholeNumber(Range range) {
+  return {[range](const At& at) { return static_cast<int>(readNumber(at, range, true)); },
+          [](const int& value) { return Document(value); }, numberSchema(range, true)};
+}
+
 Codec<glm::ivec3> wholeNumbers3(Range component) {
   return numbers<glm::ivec3, 3, int>(component);
 }

@@ -53,6 +53,7 @@ Codec<glm::dvec3> vector3(Range component);
 Codec<glm::dvec3> direction();
 /// [a, b, c, d] whose a, b, c are such a direction.
 Codec<glm::dvec4> clipPlaneVector();
+Codec<int> wholeNumber(Range range);
 Codec<glm::ivec3> wholeNumbers3(Range component);
 Codec<ImageSize> imageSize();
 /// [x, y] pairs with strictly growing x.

@@ -23,6 +23,8 @@ void checkVolume(const At& at, const VolumeChoice& volume) {
   if (volume.file.empty()) {
     if (!volume.dims) at.fail("'dims' is missing beside 'procedural'");
     forbid(at, "endian", "only a raw file has an endianness");
+    forbid(at, "component", "only a file has several components");
+    forbid(at, "series", "only a DICOM folder has several series");
   }
 }
 
@@ -46,10 +48,14 @@ Codec<VolumeChoice> volumeCodec() {
        field("dims", "Voxels along x, y and z: of a built-in volume, or of a bare raw file",
              &V::dims, wholeNumbers3({.minimum = 1, .maximum = 1e6})),
        field("type", "Voxel type: of a built-in volume, or of a bare raw file", &V::type,
-             word({"u8", "i16", "u16", "f32"})),
+             word({"u8", "i8", "u16", "i16", "u32", "i32", "u64", "i64", "f32", "f64"})),
        field("endian", "Byte order of a bare raw file", &V::endian, word({"little", "big"})),
        field("spacing", "Distance of voxels along x, y and z, of a built-in volume or a raw file",
-             &V::spacing, vector3(kPositive))},
+             &V::spacing, vector3(kPositive)),
+       field("component", "Which component of voxels that have several; 0 is the first",
+             &V::component, wholeNumber({.minimum = 0, .maximum = 1e6})),
+       field("series", "Which series of a DICOM folder: its UID, or its number in the list",
+             &V::series, text())},
       checkVolume);
 }
 

@@ -34,7 +34,10 @@ std::string byteCount(std::size_t bytes) {
 std::string describeFile(const node::VolumeInfo& info) {
   const VolumeGrid& grid = info.grid;
   const glm::dvec3 size = glm::dvec3{grid.cells()} * grid.spacing;
-  return line("volume", info.name) + line("format", info.format) +
+  std::string format = info.format;
+  if (!info.encoding.empty()) format += ", " + info.encoding;
+  if (info.components > 1) format += fmt::format(", {} components per voxel", info.components);
+  return line("volume", info.name) + line("format", format) +
          line("dimensions", fmt::format("{} x {} x {}", grid.dims.x, grid.dims.y, grid.dims.z)) +
          line("type",
               fmt::format("{}, {}", node::voxelTypeName(info.type), byteCount(info.bytes()))) +

@@ -27,8 +27,12 @@ void swapBytes(std::span<std::byte> elements, std::size_t bytesPerElement) {
     swapEach<std::uint16_t>(elements, [](std::uint16_t word) { return __builtin_bswap16(word); });
     return;
   }
-  BURIN_CHECK_EQ(bytesPerElement, std::size_t{4});
-  swapEach<std::uint32_t>(elements, [](std::uint32_t word) { return __builtin_bswap32(word); });
+  if (bytesPerElement == 4) {
+    swapEach<std::uint32_t>(elements, [](std::uint32_t word) { return __builtin_bswap32(word); });
+    return;
+  }
+  BURIN_CHECK_EQ(bytesPerElement, std::size_t{8});
+  swapEach<std::uint64_t>(elements, [](std::uint64_t word) { return __builtin_bswap64(word); });
 }
 
 }  // namespace burin::node

@@ -11,7 +11,7 @@ constexpr bool swapNeeded(bool storedBigEndian) {
   return storedBigEndian != (std::endian::native == std::endian::big);
 }
 
-/// Reverses the bytes of each element in place; elements of 1, 2 or 4 bytes.
+/// Reverses the bytes of each element in place; elements of 1, 2, 4 or 8 bytes.
 void swapBytes(std::span<std::byte> elements, std::size_t bytesPerElement);
 
 }  // namespace burin::node

@@ -7,32 +7,48 @@
 #include <utility>
 
 #include "burin/common/error.hpp"
+#include "stored_voxels.hpp"
 
 namespace burin::node {
 namespace {
 
 constexpr std::size_t kInputBytes = std::size_t{256} << 10;
-constexpr int kGzipWindow = 15 + 16;  // the largest window, gzip header and trailer required
+constexpr int kGzipWindow = 15 + 16;        // the largest window, gzip header and trailer required
+constexpr int kZlibOrGzipWindow = 15 + 32;  // either header
 constexpr Bytef kMagic[2] = {0x1f, 0x8b};
+
+const char* wrapperName(DeflateWrapper wrapper) {
+  return wrapper == DeflateWrapper::kGzip ? "gzip" : "zlib";
+}
 
 }  // namespace
 
+std::uint64_t mostInflated(std::uint64_t deflatedBytes) {
+  // Deflate codes 258 bytes with 2 bits at best: 1032 to 1. The slack leaves streams that are
+  // broken or empty to the better messages of the inflater.
+  constexpr std::uint64_t kLargestRatio = 1032;
+  constexpr std::uint64_t kSlack = std::uint64_t{1} << 16;
+  return kLargestRatio * deflatedBytes + kSlack;
+}
+
 struct GzipStream::Inflater {
   z_stream z{};
-  Inflater() {
-    if (inflateInit2(&z, kGzipWindow) != Z_OK) fail(ExitCode::kRank, "zlib cannot be initialised");
+  explicit Inflater(int window) {
+    if (inflateInit2(&z, window) != Z_OK) fail(ExitCode::kRank, "zlib cannot be initialised");
   }
   ~Inflater() { inflateEnd(&z); }
   Inflater(const Inflater&) = delete;
   Inflater& operator=(const Inflater&) = delete;
 };
 
-GzipStream::GzipStream(FileHandle file, std::uint64_t fileOffset)
+GzipStream::GzipStream(FileHandle file, std::uint64_t fileOffset, DeflateWrapper wrapper)
     : file_{std::move(file)},
+      wrapper_{wrapper},
       fileStart_{fileOffset},
       fileNext_{fileOffset},
       input_(kInputBytes),
-      inflater_{std::make_unique<Inflater>()} {}
+      inflater_{std::make_unique<Inflater>(wrapper == DeflateWrapper::kGzip ? kGzipWindow
+                                                                            : kZlibOrGzipWindow)} {}
 
 GzipStream::~GzipStream() = default;
 
@@ -42,6 +58,11 @@ void GzipStream::restart() {
   fileNext_ = fileStart_;
   position_ = 0;
   ended_ = false;
+}
+
+std::uint64_t GzipStream::mostBytes() const {
+  const std::uint64_t fileBytes = regularFileSize(path());
+  return mostInflated(fileBytes - std::min(fileBytes, fileStart_));
 }
 
 /// Puts unread input to the front and fills up behind it; leaves the input as it is at the file's
@@ -77,20 +98,21 @@ void GzipStream::inflateSome() {
   z_stream& z = inflater_->z;
   if (z.avail_in == 0) refill();
   if (z.avail_in == 0) {
-    fail(ExitCode::kVolume, "{}: the gzip stream ends early, after {} inflated bytes",
-         path().string(), position_);
+    fail(ExitCode::kVolume, "{}: the {} stream ends early, after {} inflated bytes",
+         path().string(), wrapperName(wrapper_), position_);
   }
   const int result = inflate(&z, Z_NO_FLUSH);
   if (result == Z_STREAM_END) {
     ended_ = !nextMember();
   } else if (result != Z_OK && result != Z_BUF_ERROR) {
-    fail(ExitCode::kVolume, "{}: the gzip stream is damaged near file offset {}: {}",
-         path().string(), fileNext_ - z.avail_in, z.msg != nullptr ? z.msg : zError(result));
+    fail(ExitCode::kVolume, "{}: the {} stream is damaged near file offset {}: {}", path().string(),
+         wrapperName(wrapper_), fileNext_ - z.avail_in, z.msg != nullptr ? z.msg : zError(result));
   }
 }
 
 /// At the end of a member: true if another one follows, false at the end of the file.
 bool GzipStream::nextMember() {
+  if (wrapper_ == DeflateWrapper::kZlibOrGzip) return false;
   z_stream& z = inflater_->z;
   if (z.avail_in < sizeof kMagic) refill();
   if (z.avail_in == 0) return false;

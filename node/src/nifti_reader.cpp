@@ -63,7 +63,7 @@ ImagePointer readHeader(const std::string& file) {
 }
 
 glm::ivec3 dimsOf(const std::string& name, const nifti_image& image) {
-  if (image.nt > 1 || image.nu > 1 || image.nv > 1 || image.nw > 1) {
+  if (image.nt > 1 || image.nv > 1 || image.nw > 1) {
     fail(ExitCode::kVolume,
          "{}: {} dimensions ({} x {} x {} x {} x {} ...; expected a volume with "
          "3)",
@@ -72,20 +72,27 @@ glm::ivec3 dimsOf(const std::string& name, const nifti_image& image) {
   return checkedDims(name, {image.nx, image.ny, image.nz});
 }
 
-VoxelType typeOf(const std::string& name, const nifti_image& image) {
-  switch (image.datatype) {
-    case NIFTI_TYPE_UINT8:
-      return VoxelType::kU8;
-    case NIFTI_TYPE_INT16:
-      return VoxelType::kI16;
-    case NIFTI_TYPE_UINT16:
-      return VoxelType::kU16;
-    case NIFTI_TYPE_FLOAT32:
-      return VoxelType::kF32;
-    default:
-      fail(ExitCode::kVolume, "{}: voxel type \"{}\" is not supported (expected {})", name,
-           nifti_datatype_string(image.datatype), supportedTypeNames());
+struct VoxelFormat {
+  int niftiType;
+  StoredType type;
+  int components;
+};
+
+constexpr VoxelFormat kVoxelFormats[] = {
+    {NIFTI_TYPE_UINT8, StoredType::kU8, 1},      {NIFTI_TYPE_INT8, StoredType::kI8, 1},
+    {NIFTI_TYPE_UINT16, StoredType::kU16, 1},    {NIFTI_TYPE_INT16, StoredType::kI16, 1},
+    {NIFTI_TYPE_UINT32, StoredType::kU32, 1},    {NIFTI_TYPE_INT32, StoredType::kI32, 1},
+    {NIFTI_TYPE_UINT64, StoredType::kU64, 1},    {NIFTI_TYPE_INT64, StoredType::kI64, 1},
+    {NIFTI_TYPE_FLOAT32, StoredType::kF32, 1},   {NIFTI_TYPE_FLOAT64, StoredType::kF64, 1},
+    {NIFTI_TYPE_RGB24, StoredType::kU8, 3},      {NIFTI_TYPE_RGBA32, StoredType::kU8, 4},
+    {NIFTI_TYPE_COMPLEX64, StoredType::kF32, 2}, {NIFTI_TYPE_COMPLEX128, StoredType::kF64, 2}};
+
+const VoxelFormat& formatOf(const std::string& name, const nifti_image& image) {
+  for (const VoxelFormat& format : kVoxelFormats) {
+    if (format.niftiType == image.datatype) return format;
   }
+  fail(ExitCode::kVolume, "{}: voxel type \"{}\" is not supported (expected {})", name,
+       nifti_datatype_string(image.datatype), supportedTypeNames());
 }
 
 /// The index-to-world matrix the file gives, in its own space (RAS): the sform, else the qform.
@@ -122,7 +129,17 @@ StoredVoxels storedVoxels(const std::string& name, const nifti_image& image) {
   }
   StoredVoxels stored;
   stored.file = image.iname;
-  stored.type = typeOf(name, image);
+  const VoxelFormat& format = formatOf(name, image);
+  stored.type = format.type;
+  stored.components = format.components;
+  if (image.nu > 1) {  // the fifth dimension: vectors, one volume for each of their components
+    if (format.components > 1 || image.nu > kMostComponents) {
+      fail(ExitCode::kVolume, "{}: {} vectors of {} (expected at most {} scalars)", name, image.nu,
+           nifti_datatype_string(image.datatype), kMostComponents);
+    }
+    stored.components = static_cast<int>(image.nu);
+    stored.isPlanar = true;
+  }
   const bool native = image.byteorder == nifti_short_order();
   stored.bigEndian = native == (std::endian::native == std::endian::big);
   const auto offset = static_cast<std::uint64_t>(image.iname_offset);
@@ -134,8 +151,7 @@ StoredVoxels storedVoxels(const std::string& name, const nifti_image& image) {
   }
   // NIfTI: a slope of 0 says that there is no scaling.
   if (image.scl_slope != 0 && std::isfinite(image.scl_slope) && std::isfinite(image.scl_inter)) {
-    stored.slope = image.scl_slope;
-    stored.intercept = image.scl_inter;
+    stored.rescale = {image.scl_slope, image.scl_inter};
   }
   return stored;
 }
@@ -155,7 +171,7 @@ std::unique_ptr<BrickSource> openNifti(const VolumeChoice& choice) {
   info.grid.dims = dimsOf(choice.file, *image);
   setOrientation(*image, info);
   checkGrid(choice.file, info.grid);
-  return openStoredVoxels(std::move(info), storedVoxels(choice.file, *image));
+  return openStoredVoxels(std::move(info), storedVoxels(choice.file, *image), choice);
 }
 
 }  // namespace burin::node

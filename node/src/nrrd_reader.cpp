@@ -1,6 +1,7 @@
 #include <teem/nrrd.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
@@ -96,14 +97,6 @@ bool isPattern(const std::string& name) {
   return false;
 }
 
-void checkDataFile(const std::string& header, const fs::path& file) {
-  try {
-    regularFileSize(file);
-  } catch (const Error& error) {
-    fail(error.code(), "{}: its data file {}", header, error.what());
-  }
-}
-
 /// Throws unless every data file that the header names is a regular file: teem opens the first of
 /// them while it reads the header, and opening a FIFO would wait for ever.
 void checkDataFiles(const std::string& name) {
@@ -136,37 +129,70 @@ Header readHeader(const std::string& name) {
   return header;
 }
 
-glm::ivec3 dimsOf(const std::string& name, const Nrrd& nrrd) {
+/// The axis along which components lie; nothing if voxels are scalars. A kind says so, or, where
+/// there is a space, a direction that is missing.
+std::optional<unsigned> componentAxis(const Nrrd& nrrd) {
+  for (unsigned axis = 0; axis < nrrd.dim; ++axis) {
+    const int kind = nrrd.axis[axis].kind;
+    if (kind != nrrdKindUnknown && nrrdKindIsDomain(kind) == 0) return axis;
+    if (nrrd.spaceDim == 3 && !AIR_EXISTS(nrrd.axis[axis].spaceDirection[0])) return axis;
+  }
+  return std::nullopt;
+}
+
+std::string sizesOf(const Nrrd& nrrd) {
   std::string sizes;
   for (unsigned axis = 0; axis < nrrd.dim; ++axis) {
     sizes += fmt::format("{}{}", axis == 0 ? "" : " x ", nrrd.axis[axis].size);
   }
-  if (nrrd.dim != 3) {
-    fail(ExitCode::kVolume, "{}: {} dimensions ({}; expected a volume with 3)", name, nrrd.dim,
-         sizes);
-  }
-  for (unsigned axis = 0; axis < 3; ++axis) {
-    const int kind = nrrd.axis[axis].kind;
-    if (kind != nrrdKindUnknown && nrrdKindIsDomain(kind) == 0) {
-      fail(ExitCode::kVolume, "{}: axis {} holds {} components (sizes {}; expected scalar voxels)",
-           name, axis, airEnumStr(nrrdKind, kind), sizes);
-    }
-  }
-  return checkedDims(name, {static_cast<std::int64_t>(nrrd.axis[0].size),
-                            static_cast<std::int64_t>(nrrd.axis[1].size),
-                            static_cast<std::int64_t>(nrrd.axis[2].size)});
+  return sizes;
 }
 
-VoxelType typeOf(const std::string& name, const Nrrd& nrrd) {
+/// The three axes of space, fastest first.
+std::array<unsigned, 3> spaceAxes(const std::string& name, const Nrrd& nrrd) {
+  const auto components = componentAxis(nrrd);
+  if (nrrd.dim != (components ? 4U : 3U)) {
+    fail(ExitCode::kVolume, "{}: {} dimensions ({}{}; expected a volume with 3)", name, nrrd.dim,
+         sizesOf(nrrd), components ? fmt::format(", axis {} holds components", *components) : "");
+  }
+  if (!components) return {0, 1, 2};
+  if (*components != 0 && *components != 3) {
+    fail(ExitCode::kVolume,
+         "{}: axis {} holds components (sizes {}; expected the first or the last)", name,
+         *components, sizesOf(nrrd));
+  }
+  return *components == 0 ? std::array<unsigned, 3>{1, 2, 3} : std::array<unsigned, 3>{0, 1, 2};
+}
+
+glm::ivec3 dimsOf(const std::string& name, const Nrrd& nrrd) {
+  const auto [x, y, z] = spaceAxes(name, nrrd);
+  return checkedDims(name, {static_cast<std::int64_t>(nrrd.axis[x].size),
+                            static_cast<std::int64_t>(nrrd.axis[y].size),
+                            static_cast<std::int64_t>(nrrd.axis[z].size)});
+}
+
+StoredType typeOf(const std::string& name, const Nrrd& nrrd) {
   switch (nrrd.type) {
     case nrrdTypeUChar:
-      return VoxelType::kU8;
-    case nrrdTypeShort:
-      return VoxelType::kI16;
+      return StoredType::kU8;
+    case nrrdTypeChar:
+      return StoredType::kI8;
     case nrrdTypeUShort:
-      return VoxelType::kU16;
+      return StoredType::kU16;
+    case nrrdTypeShort:
+      return StoredType::kI16;
+    case nrrdTypeUInt:
+      return StoredType::kU32;
+    case nrrdTypeInt:
+      return StoredType::kI32;
+    case nrrdTypeULLong:
+      return StoredType::kU64;
+    case nrrdTypeLLong:
+      return StoredType::kI64;
     case nrrdTypeFloat:
-      return VoxelType::kF32;
+      return StoredType::kF32;
+    case nrrdTypeDouble:
+      return StoredType::kF64;
     default:
       fail(ExitCode::kVolume, "{}: voxel type \"{}\" is not supported (expected {})", name,
            airEnumStr(nrrdType, nrrd.type), supportedTypeNames());
@@ -189,12 +215,12 @@ std::optional<glm::dvec3> lpsSigns(int space) {
 }
 
 /// Space directions and origin, turned to LPS where the space is anatomical.
-void setOrientation(const Nrrd& nrrd, VolumeInfo& info) {
+void setOrientation(const Nrrd& nrrd, const std::array<unsigned, 3>& axes, VolumeInfo& info) {
   const auto signs = lpsSigns(nrrd.space);
   info.anatomical = signs.has_value();
   const glm::dvec3 turn = signs.value_or(glm::dvec3{1});
   for (int axis = 0; axis < 3; ++axis) {
-    const double* vector = nrrd.axis[axis].spaceDirection;
+    const double* vector = nrrd.axis[axes[static_cast<std::size_t>(axis)]].spaceDirection;
     const glm::dvec3 step{vector[0], vector[1], vector[2]};
     info.grid.spacing[axis] = glm::length(step);
     info.grid.direction[axis] = turn * step / info.grid.spacing[axis];
@@ -206,9 +232,9 @@ void setOrientation(const Nrrd& nrrd, VolumeInfo& info) {
 }
 
 /// Plain spacings along the file's own axes; 1 where the header says none.
-void setSpacings(const Nrrd& nrrd, VolumeInfo& info) {
+void setSpacings(const Nrrd& nrrd, const std::array<unsigned, 3>& axes, VolumeInfo& info) {
   for (int axis = 0; axis < 3; ++axis) {
-    const double spacing = nrrd.axis[axis].spacing;
+    const double spacing = nrrd.axis[axes[static_cast<std::size_t>(axis)]].spacing;
     if (!AIR_EXISTS(spacing)) continue;
     info.grid.spacing[axis] = std::abs(spacing);
     info.grid.direction[axis] *= spacing < 0 ? -1.0 : 1.0;
@@ -227,6 +253,15 @@ StoredVoxels storedVoxels(const fs::path& file, const Header& header) {
   stored.file = dataFileOf(file, state);
   stored.bigEndian = state.endian == airEndianBig;
   stored.type = typeOf(file.string(), *header.nrrd);
+  if (const auto axis = componentAxis(*header.nrrd)) {
+    const std::size_t components = header.nrrd->axis[*axis].size;
+    if (components > kMostComponents) {
+      fail(ExitCode::kVolume, "{}: {} components per voxel (expected at most {})", file.string(),
+           components, kMostComponents);
+    }
+    stored.components = static_cast<int>(components);
+    stored.isPlanar = *axis == 3;
+  }
   BURIN_CHECK(state.dataFile != nullptr);
   stored.fileOffset = static_cast<std::uint64_t>(ftello(state.dataFile));
   if (state.encoding == nrrdEncodingGzip) {
@@ -236,8 +271,10 @@ StoredVoxels storedVoxels(const fs::path& file, const Header& header) {
            file.string(), state.byteSkip);
     }
     stored.streamOffset = static_cast<std::uint64_t>(state.byteSkip);
+  } else if (state.encoding == nrrdEncodingAscii) {
+    stored.encoding = StoredVoxels::Encoding::kAscii;
   } else if (state.encoding != nrrdEncodingRaw) {
-    fail(ExitCode::kVolume, "{}: encoding \"{}\" is not supported (expected raw or gzip)",
+    fail(ExitCode::kVolume, "{}: encoding \"{}\" is not supported (expected raw, gzip or ascii)",
          file.string(), state.encoding->name);
   }
   return stored;
@@ -255,13 +292,14 @@ std::unique_ptr<BrickSource> openNrrd(const VolumeChoice& choice) {
   info.name = choice.file;
   info.format = "NRRD";
   info.grid.dims = dimsOf(choice.file, *header.nrrd);
+  const auto axes = spaceAxes(choice.file, *header.nrrd);
   if (header.nrrd->spaceDim == 3) {
-    setOrientation(*header.nrrd, info);
+    setOrientation(*header.nrrd, axes, info);
   } else {
-    setSpacings(*header.nrrd, info);
+    setSpacings(*header.nrrd, axes, info);
   }
   checkGrid(choice.file, info.grid);
-  return openStoredVoxels(std::move(info), storedVoxels(choice.file, header));
+  return openStoredVoxels(std::move(info), storedVoxels(choice.file, header), choice);
 }
 
 }  // namespace burin::node

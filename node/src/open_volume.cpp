@@ -22,24 +22,30 @@ constexpr std::array<FileFormat, 3> kFormats{{
     {"raw", ".raw .raw.gz", false, recognisesRaw, openRaw},
 }};
 
-std::vector<std::byte> inflatedStart(const std::filesystem::path& file) {
-  GzipStream stream{FileHandle{file}, 0};
-  std::vector<std::byte> bytes(kStartBytes);
-  bytes.resize(stream.readSome(bytes));
-  return bytes;
+/// Replaces `bytes` by the inflated first ones, unless that is not what they are: voxels may begin
+/// like a gzip stream.
+void tryToInflate(const std::filesystem::path& file, std::vector<std::byte>& bytes) {
+  try {
+    GzipStream stream{FileHandle{file}, 0};
+    std::vector<std::byte> inflated(kStartBytes);
+    inflated.resize(stream.readSome(inflated));
+    bytes = std::move(inflated);
+  } catch (const Error&) {
+    // A reader that expects gzip says what is wrong with it.
+  }
 }
 
 FileStart readStart(const VolumeChoice& choice) {
   const std::filesystem::path file{choice.file};
-  regularFileSize(file);
   FileStart start;
   start.hasDims = choice.dims.has_value();
+  regularFileSize(file);
   start.lowerName = file.filename().string();
   std::ranges::transform(start.lowerName, start.lowerName.begin(),
                          [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   start.bytes.resize(kStartBytes);
   start.bytes.resize(FileHandle{file}.readSome(0, start.bytes));
-  if (start.startsWith("\x1f\x8b")) start.bytes = inflatedStart(file);
+  if (start.startsWith("\x1f\x8b")) tryToInflate(file, start.bytes);
   return start;
 }
 
@@ -85,7 +91,7 @@ std::unique_ptr<BrickSource> openProcedural(const VolumeChoice& choice) {
     const auto named = voxelTypeFromName(*choice.type);
     if (!named) {
       fail(ExitCode::kUsage, "procedural volume \"{}\": unknown type \"{}\" (expected {})",
-           choice.procedural, *choice.type, supportedTypeNames());
+           choice.procedural, *choice.type, "u8, i16, u16, f32");
     }
     type = *named;
   }

@@ -4,6 +4,8 @@
 #include <charconv>
 #include <utility>
 
+#include "stored_type.hpp"
+
 namespace burin::node {
 namespace {
 
@@ -45,15 +47,18 @@ std::optional<RawName> parseRawName(std::string_view fileName) {
 
 std::optional<std::string_view> canonicalTypeName(std::string_view written) {
   using Names = std::pair<std::string_view, std::string_view>;
-  static constexpr std::array<Names, 9> kNames{{{"u8", "u8"},
-                                                {"uint8", "u8"},
-                                                {"i16", "i16"},
-                                                {"int16", "i16"},
-                                                {"u16", "u16"},
-                                                {"uint16", "u16"},
-                                                {"f32", "f32"},
-                                                {"float32", "f32"},
-                                                {"float", "f32"}}};
+  static constexpr std::array<Names, 11> kNames{{{"uint8", "u8"},
+                                                 {"int8", "i8"},
+                                                 {"uint16", "u16"},
+                                                 {"int16", "i16"},
+                                                 {"uint32", "u32"},
+                                                 {"int32", "i32"},
+                                                 {"uint64", "u64"},
+                                                 {"int64", "i64"},
+                                                 {"float32", "f32"},
+                                                 {"float", "f32"},
+                                                 {"float64", "f64"}}};
+  if (storedTypeFromName(written)) return written;
   for (const auto& [name, ours] : kNames) {
     if (name == written) return ours;
   }

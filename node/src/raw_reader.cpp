@@ -21,13 +21,13 @@ glm::ivec3 rawDims(const VolumeChoice& choice, const std::optional<RawName>& nam
                      choice.dims ? ExitCode::kUsage : ExitCode::kVolume);
 }
 
-VoxelType rawType(const VolumeChoice& choice, const std::optional<RawName>& name) {
+StoredType rawType(const VolumeChoice& choice, const std::optional<RawName>& name) {
   if (!choice.type && !name) {
     fail(ExitCode::kUsage, "{}: a bare raw file needs a type (expected --type {})", choice.file,
          supportedTypeNames());
   }
   const std::string& written = choice.type ? *choice.type : name->type;
-  if (const auto known = canonicalTypeName(written)) return *voxelTypeFromName(*known);
+  if (const auto known = canonicalTypeName(written)) return *storedTypeFromName(*known);
   fail(choice.type ? ExitCode::kUsage : ExitCode::kVolume,
        "{}: voxel type \"{}\" is not supported (expected {})", choice.file, written,
        supportedTypeNames());
@@ -61,7 +61,7 @@ std::unique_ptr<BrickSource> openRaw(const VolumeChoice& choice) {
   stored.encoding =
       file.extension() == ".gz" ? StoredVoxels::Encoding::kGzip : StoredVoxels::Encoding::kRaw;
   stored.exactSize = true;
-  return openStoredVoxels(std::move(info), stored);
+  return openStoredVoxels(std::move(info), stored, choice);
 }
 
 }  // namespace burin::node

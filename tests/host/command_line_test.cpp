@@ -108,6 +108,10 @@ TEST(CommandLine, RenderTakesEveryOption) {
                                              "big",
                                              "--spacing",
                                              "0.5,1,2.25",
+                                             "--component",
+                                             "2",
+                                             "--series",
+                                             "1.2.840",
                                              "--stats",
                                              "t.json",
                                              "--redraw",
@@ -133,6 +137,8 @@ TEST(CommandLine, RenderTakesEveryOption) {
   EXPECT_EQ(options.raw.type, "i16");
   EXPECT_EQ(options.raw.endian, "big");
   EXPECT_EQ(options.raw.spacing, glm::dvec3(0.5, 1, 2.25));
+  EXPECT_EQ(options.raw.component, 2);
+  EXPECT_EQ(options.raw.series, "1.2.840");
   EXPECT_EQ(options.stats, "t.json");
   EXPECT_EQ(options.saveScene, "out.json");
   EXPECT_TRUE(options.reference);
@@ -190,7 +196,8 @@ TEST(CommandLine, HelpAndVersionAreAnswers) {
        {"--output",    "--volume",         "--size",   "--set",           "--bricks",
         "--skip",      "--dedicated-host", "--frames", "--orbit",         "--dims",
         "--type",      "--endian",         "--stats",  "--count-samples", "--redraw",
-        "--reference", "--save-scene",     "--quiet",  "burin styles",    "schema.json"})
+        "--reference", "--save-scene",     "--quiet",  "burin styles",    "schema.json",
+        "--component", "--series"})
     EXPECT_THAT(render, HasSubstr(option));
   EXPECT_THAT(std::get<Answer>(parse({"make-volume", "--help"})).text, HasSubstr("vessels"));
 }
@@ -230,7 +237,8 @@ INSTANTIATE_TEST_SUITE_P(
                       BadUsage{{"render", "s.json", "--dims", "3,4,99999999999"}, "--dims"},
                       BadUsage{{"render", "s.json", "--spacing", "1,-1,1"}, "--spacing"},
                       BadUsage{{"render", "s.json", "--spacing", "1,nan,1"}, "--spacing"},
-                      BadUsage{{"render", "s.json", "--type", "u64"}, "u64"},
+                      BadUsage{{"render", "s.json", "--type", "u12"}, "u12"},
+                      BadUsage{{"info", "v.raw", "--component", "-1"}, "--component"},
                       BadUsage{{"render", "s.json", "--endian", "middle"}, "middle"},
                       BadUsage{{"render", "s.json", "--skip", "maybe"}, "maybe"},
                       BadUsage{{"render", "s.json", "--gl", "glx"}, "glx"},

@@ -28,7 +28,10 @@ TEST(RawName, TypesHaveOneName) {
   EXPECT_EQ(canonicalTypeName("uint16"), "u16");
   EXPECT_EQ(canonicalTypeName("float32"), "f32");
   EXPECT_EQ(canonicalTypeName("f32"), "f32");
-  EXPECT_FALSE(canonicalTypeName("float64").has_value());
+  EXPECT_EQ(canonicalTypeName("float64"), "f64");
+  EXPECT_EQ(canonicalTypeName("int8"), "i8");
+  EXPECT_EQ(canonicalTypeName("uint32"), "u32");
+  EXPECT_FALSE(canonicalTypeName("float16").has_value());
 }
 
 }  // namespace

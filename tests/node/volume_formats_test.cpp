@@ -193,6 +193,68 @@ TEST(VolumeFormats, AStreamLargerThanItsBuffersIsReadInPieces) {
   }
 }
 
+TEST(VolumeFormats, RawVoxelsMayBeginLikeAGzipStream) {
+  const TemporaryFolder folder;
+  const std::string bytes = "\x1f\x8b\x08 and more";
+  const auto source = node::openVolume(
+      fileChoice(folder.write("v_3x2x2_uint8.raw", std::string_view{bytes}.substr(0, 12))));
+  EXPECT_EQ(loaded<std::uint8_t>(*source, {{0, 0, 0}, {2, 1, 1}}),
+            (std::vector<std::uint8_t>{0x1f, 0x8b}));
+}
+
+TEST(VolumeFormats, WideTypesOfBareFiles) {
+  const TemporaryFolder folder;
+  const auto open = [&](const char* type, const std::string& bytes) {
+    VolumeChoice choice = fileChoice(folder.write("v", bytes));
+    choice.dims = glm::ivec3{3, 1, 1};
+    choice.type = type;
+    choice.endian = "big";
+    return node::openVolume(choice);
+  };
+  const auto i8 = open("i8", encoded(std::vector<std::int8_t>{-128, 127, -1}, true));
+  EXPECT_EQ(i8->info().type, node::VoxelType::kI16);
+  EXPECT_EQ(i8->info().notice, "");  // nothing is lost
+  EXPECT_EQ(loadedWhole<std::int16_t>(*i8), (std::vector<std::int16_t>{-128, 127, -1}));
+  // 2^24 + 1 and the largest number lie between two floats; ties go to the even one.
+  const auto u32 = open("u32", encoded(std::vector<std::uint32_t>{16777217, 4294967295, 7}, true));
+  EXPECT_EQ(loadedWhole<float>(*u32), (std::vector<float>{0x1p24f, 0x1p32f, 7}));
+  EXPECT_NE(u32->info().notice.find("u32 voxels delivered as f32"), std::string::npos);
+  const auto i64 = open("i64", encoded(std::vector<std::int64_t>{-1, 1LL << 62, 3}, true));
+  EXPECT_EQ(loadedWhole<float>(*i64), (std::vector<float>{-1, 0x1p62f, 3}));
+  const auto f64 = open("f64", encoded(std::vector<double>{0.1, -1e300, 1e-20}, true));
+  EXPECT_EQ(loadedWhole<float>(*f64),
+            (std::vector<float>{0.1f, -std::numeric_limits<float>::infinity(), 1e-20f}));
+}
+
+TEST(VolumeFormats, OneComponentOfNiftiColoursAndVectors) {
+  const TemporaryFolder folder;
+  NiftiBytes header;
+  header.dim = {3, 2, 1, 2, 1, 1, 1, 1};
+  header.datatype = 128;  // RGB24: the colours of a voxel lie together
+  header.bitsPerVoxel = 24;
+  VolumeChoice choice = fileChoice(folder.write("rgb.nii", header.bytes(false) + "rgbRGBxyzXYZ"));
+  choice.component = 1;
+  EXPECT_EQ(loadedWhole<std::uint8_t>(*node::openVolume(choice)),
+            (std::vector<std::uint8_t>{'g', 'G', 'y', 'Y'}));
+  header.dim = {5, 2, 1, 2, 1, 3, 1, 1};  // vectors: one volume after another
+  header.datatype = 2;
+  header.bitsPerVoxel = 8;
+  for (const bool isPacked : {false, true}) {
+    const std::string bytes = header.bytes(false) + "1234abcdABCD";
+    choice = fileChoice(isPacked ? folder.write("v.nii.gz", gzipped(bytes))
+                                 : folder.write("v.nii", bytes));
+    for (int component = 0; component < 3; ++component) {
+      choice.component = component;
+      const auto source = node::openVolume(choice);
+      EXPECT_EQ(source->info().components, 3);
+      const std::string_view expected =
+          std::array{"1234", "abcd", "ABCD"}[static_cast<std::size_t>(component)];
+      EXPECT_EQ(loadedWhole<std::uint8_t>(*source),
+                (std::vector<std::uint8_t>{expected.begin(), expected.end()}));
+    }
+  }
+}
+
 TEST(VolumeFormats, TheUsersSpacingReplacesTheHeaders) {
   const TemporaryFolder folder;
   VolumeChoice choice = fileChoice(folder.write(

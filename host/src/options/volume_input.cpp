@@ -4,11 +4,22 @@
 
 namespace burin::host {
 
+namespace {
+
+constexpr int kMostComponents = 1 << 20;
+
+}  // namespace
+
 void addRawOptions(OptionList& list, RawText& text) {
   list.text("--dims", text.dims, "X,Y,Z", "Voxels along each axis of a bare raw file");
-  list.choice("--type", text.type, {"u8", "i16", "u16", "f32"}, "Type of its voxels", "TYPE");
+  list.choice("--type", text.type,
+              {"u8", "i8", "u16", "i16", "u32", "i32", "u64", "i64", "f32", "f64"},
+              "Type of its voxels", "TYPE");
   list.choice("--endian", text.endian, {"little", "big"}, "Byte order of its voxels", "ORDER");
   list.text("--spacing", text.spacing, "X,Y,Z", "Distance of its voxels in world units");
+  list.integer("--component", text.component, 0, kMostComponents,
+               "Component of voxels that have several; 0 is the first");
+  list.text("--series", text.series, "UID|N", "Series of a DICOM folder that holds several");
 }
 
 RawLayout rawLayout(const RawText& text) {
@@ -17,6 +28,8 @@ RawLayout rawLayout(const RawText& text) {
   if (!text.type.empty()) raw.type = text.type;
   if (!text.endian.empty()) raw.endian = text.endian;
   if (!text.spacing.empty()) raw.spacing = parseSpacing(text.spacing, "--spacing");
+  if (text.component >= 0) raw.component = text.component;
+  if (!text.series.empty()) raw.series = text.series;
   return raw;
 }
 
@@ -25,6 +38,8 @@ void RawLayout::applyTo(VolumeChoice& choice) const {
   if (type) choice.type = type;
   if (endian) choice.endian = endian;
   if (spacing) choice.spacing = spacing;
+  if (component) choice.component = component;
+  if (series) choice.series = series;
 }
 
 void addInput(OptionList& list, std::string& input) {

@@ -7,9 +7,11 @@
 
 namespace burin::host {
 
-/// --dims, --type, --endian and --spacing of a bare raw file, as they were typed.
+/// --dims, --type, --endian and --spacing of a bare raw file, --component and --series of any
+/// other, as they were typed.
 struct RawText {
-  std::string dims, type, endian, spacing;
+  std::string dims, type, endian, spacing, series;
+  int component = -1;  ///< none
 };
 
 void addRawOptions(OptionList& list, RawText& text);

@@ -35,9 +35,11 @@ struct VolumeChoice {
   std::string file;        ///< as written; relative to the scene file
   std::string procedural;  ///< e.g. "vessels"; at most one of the two is set
   std::optional<glm::ivec3> dims;
-  std::optional<std::string> type;    ///< "u8", "i16", "u16", "f32"
+  std::optional<std::string> type;    ///< "u8", "i16", "u16", "f32"; of a raw file also wider ones
   std::optional<std::string> endian;  ///< "little", "big"
   std::optional<glm::dvec3> spacing;
+  std::optional<int> component;       ///< of voxels that have several, 0 is the first
+  std::optional<std::string> series;  ///< of a DICOM folder: its UID, or its number from 1 on
   friend bool operator==(const VolumeChoice&, const VolumeChoice&) = default;
 };
 

@@ -15,12 +15,15 @@
 
 namespace burin::host {
 
-/// --dims, --type, --endian, --spacing: what a bare raw file does not say itself.
+/// --dims, --type, --endian, --spacing: what a bare raw file does not say itself; --component and
+/// --series: what is meant of a file that holds several.
 struct RawLayout {
   std::optional<glm::ivec3> dims;
   std::optional<std::string> type;
   std::optional<std::string> endian;
   std::optional<glm::dvec3> spacing;
+  std::optional<int> component;
+  std::optional<std::string> series;
 
   /// Puts what was given into `choice`, leaves the rest of it alone.
   void applyTo(VolumeChoice& choice) const;

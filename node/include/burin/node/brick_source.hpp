@@ -22,10 +22,12 @@ std::optional<VoxelType> voxelTypeFromName(std::string_view name);
 
 struct VolumeInfo {
   std::string name;    ///< in messages: the path as the user gave it, or "procedural vessels"
-  std::string format;  ///< "NRRD", "NIfTI", "raw", "procedural"
+  std::string format;  ///< "NRRD", "NIfTI", "raw", "procedural", ...
   VolumeGrid grid;
   VoxelType type = VoxelType::kU8;
   bool anatomical = false;  ///< world is LPS
+  std::string encoding;     ///< how the file keeps its voxels: "u8, gzip"; "" if there is no file
+  int components = 1;       ///< per voxel in the file; one of them is delivered
   std::string notice;       ///< what the user should know of how it is read, "" if nothing
   std::size_t bytes() const { return grid.voxelCount() * bytesPerVoxel(type); }
 };

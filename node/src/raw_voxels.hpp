@@ -3,26 +3,27 @@
 #include <cstdint>
 #include <vector>
 
-#include "burin/node/brick_source.hpp"
 #include "file_handle.hpp"
-#include "stored_voxels.hpp"
+#include "stored_reader.hpp"
 
 namespace burin::node {
 
 /// Uncompressed voxels, read straight from the file: any region at its own cost.
-class RawSource : public BrickSource {
+class RawVoxels : public StoredReader {
  public:
-  /// Checks the file's size against the header.
-  RawSource(VolumeInfo info, const StoredVoxels& stored);
-  const VolumeInfo& info() const override { return info_; }
+  /// The voxels begin at byte `start`. Checks the file's size; `exactSize`: nothing may follow
+  /// them.
+  RawVoxels(const StoredLayout& layout, const std::filesystem::path& file, std::uint64_t start,
+            bool bigEndian, bool exactSize);
+  const StoredLayout& layout() const override { return layout_; }
   bool randomAccess() const override { return true; }
-  void load(const IndexBox& region, std::span<std::byte> out) override;
+  void read(const IndexBox& region, std::span<std::byte> out) override;
 
  private:
   void readPlane(const IndexBox& region, int z, std::span<std::byte> out);
   std::uint64_t byteOffset(int x, int y, int z) const;
 
-  VolumeInfo info_;
+  StoredLayout layout_;
   FileHandle file_;
   std::uint64_t start_;
   bool swap_;

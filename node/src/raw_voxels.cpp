@@ -1,52 +1,53 @@
-#include "raw_source.hpp"
+#include "raw_voxels.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include "burin/common/error.hpp"
 #include "byte_order.hpp"
+#include "stored_voxels.hpp"
 
 namespace burin::node {
 namespace {
 
-void checkFileSize(const VolumeInfo& info, const StoredVoxels& stored) {
-  const std::uint64_t found = regularFileSize(stored.file);
-  const std::uint64_t expected = stored.fileOffset + info.bytes();
+/// `file`, if it is long enough.
+const std::filesystem::path& checkedSize(const StoredLayout& layout,
+                                         const std::filesystem::path& file, std::uint64_t start,
+                                         bool exactSize) {
+  const std::uint64_t found = regularFileSize(file);
+  const std::uint64_t expected = start + layout.bytes();
   if (found < expected) {
-    fail(ExitCode::kVolume,
-         "{}: truncated: {} bytes found, {} expected ({} before the voxels, "
-         "{} x {} x {} voxels of {})",
-         stored.file.string(), found, expected, stored.fileOffset, info.grid.dims.x,
-         info.grid.dims.y, info.grid.dims.z, voxelTypeName(info.type));
+    fail(ExitCode::kVolume, "{}: truncated: {} bytes found, {} expected ({} before the voxels, {})",
+         file.string(), found, expected, start, describe(layout));
   }
-  if (stored.exactSize && found > expected) {
-    fail(ExitCode::kVolume, "{}: {} bytes found, {} expected for {} x {} x {} voxels of {}",
-         stored.file.string(), found, expected, info.grid.dims.x, info.grid.dims.y,
-         info.grid.dims.z, voxelTypeName(info.type));
+  if (exactSize && found > expected) {
+    fail(ExitCode::kVolume, "{}: {} bytes found, {} expected for {}", file.string(), found,
+         expected, describe(layout));
   }
+  return file;
 }
 
 }  // namespace
 
-RawSource::RawSource(VolumeInfo info, const StoredVoxels& stored)
-    : info_{(checkFileSize(info, stored), std::move(info))},
-      file_{stored.file},
-      start_{stored.fileOffset},
-      swap_{swapNeeded(stored.bigEndian)} {}
+RawVoxels::RawVoxels(const StoredLayout& layout, const std::filesystem::path& file,
+                     std::uint64_t start, bool bigEndian, bool exactSize)
+    : layout_{layout},
+      file_{checkedSize(layout, file, start, exactSize)},
+      start_{start},
+      swap_{swapNeeded(bigEndian)} {}
 
-std::uint64_t RawSource::byteOffset(int x, int y, int z) const {
-  const auto row = static_cast<std::uint64_t>(z) * static_cast<std::uint64_t>(info_.grid.dims.y) +
+std::uint64_t RawVoxels::byteOffset(int x, int y, int z) const {
+  const auto row = static_cast<std::uint64_t>(z) * static_cast<std::uint64_t>(layout_.dims.y) +
                    static_cast<std::uint64_t>(y);
   const auto voxel =
-      row * static_cast<std::uint64_t>(info_.grid.dims.x) + static_cast<std::uint64_t>(x);
-  return start_ + voxel * bytesPerVoxel(info_.type);
+      row * static_cast<std::uint64_t>(layout_.dims.x) + static_cast<std::uint64_t>(x);
+  return start_ + voxel * layout_.voxelBytes();
 }
 
-void RawSource::load(const IndexBox& region, std::span<std::byte> out) {
-  checkLoad(info_, region, out);
+void RawVoxels::read(const IndexBox& region, std::span<std::byte> out) {
+  checkRead(layout_, region, out);
   if (region.empty()) return;
   const glm::ivec3 size = region.size();
-  if (size.x == info_.grid.dims.x && size.y == info_.grid.dims.y) {
+  if (size.x == layout_.dims.x && size.y == layout_.dims.y) {
     file_.readExactly(byteOffset(0, 0, region.lo.z), out);
   } else {
     const std::size_t planeBytes = out.size() / static_cast<std::size_t>(size.z);
@@ -55,16 +56,15 @@ void RawSource::load(const IndexBox& region, std::span<std::byte> out) {
       readPlane(region, z, out.subspan(plane * planeBytes, planeBytes));
     }
   }
-  if (swap_) swapBytes(out, bytesPerVoxel(info_.type));
+  if (swap_) swapBytes(out, bytesPerNumber(layout_.type));
 }
 
 /// One z plane of the region. Rows that make up at least an eighth of the bytes between the first
 /// and the last are read in one go and picked out: a system call costs as much as reading some KiB.
-void RawSource::readPlane(const IndexBox& region, int z, std::span<std::byte> out) {
+void RawVoxels::readPlane(const IndexBox& region, int z, std::span<std::byte> out) {
   constexpr std::uint64_t kWorthwhile = 8;
   constexpr std::uint64_t kScratchLimit = std::uint64_t{32} << 20;
-  const std::size_t rowBytes =
-      static_cast<std::size_t>(region.size().x) * bytesPerVoxel(info_.type);
+  const std::size_t rowBytes = static_cast<std::size_t>(region.size().x) * layout_.voxelBytes();
   const std::uint64_t first = byteOffset(region.lo.x, region.lo.y, z);
   const std::uint64_t length = byteOffset(region.lo.x, region.hi.y - 1, z) + rowBytes - first;
   if (length == out.size()) {
