@@ -3,10 +3,10 @@ burin_library(volumes
   SOURCES src/brick_source.cpp src/open_volume.cpp src/stored_voxels.cpp src/byte_order.cpp
           src/voxel_access.cpp src/file_handle.cpp src/gzip_stream.cpp
           src/stored_type.cpp src/stored_reader.cpp src/stored_source.cpp src/raw_voxels.cpp
-          src/streamed_voxels.cpp src/text_stream.cpp
-          src/nrrd_reader.cpp src/nifti_reader.cpp
+          src/pieced_voxels.cpp src/streamed_voxels.cpp src/text_stream.cpp
+          src/nrrd_reader.cpp src/nifti_reader.cpp src/metaimage_reader.cpp
           src/text_fields.cpp
-          src/raw_reader.cpp src/raw_name.cpp
+          src/number_pattern.cpp src/raw_reader.cpp src/raw_name.cpp
           src/procedural.cpp src/vessel_tree.cpp src/ct_phantom.cpp
           src/volume_writer.cpp src/gzip_writer.cpp src/nrrd_header.cpp src/nifti_header.cpp
           src/slab_reading.cpp src/slab_scatter.cpp

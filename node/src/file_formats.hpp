@@ -38,6 +38,8 @@ bool recognisesNrrd(const FileStart& start);
 std::unique_ptr<BrickSource> openNrrd(const VolumeChoice& choice);
 bool recognisesNifti(const FileStart& start);
 std::unique_ptr<BrickSource> openNifti(const VolumeChoice& choice);
+bool recognisesMetaImage(const FileStart& start);
+std::unique_ptr<BrickSource> openMetaImage(const VolumeChoice& choice);
 bool recognisesRaw(const FileStart& start);
 std::unique_ptr<BrickSource> openRaw(const VolumeChoice& choice);
 

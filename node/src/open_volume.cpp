@@ -16,9 +16,10 @@ namespace {
 
 constexpr std::size_t kStartBytes = 1024;
 
-constexpr std::array<FileFormat, 3> kFormats{{
+constexpr std::array<FileFormat, 4> kFormats{{
     {"NRRD", ".nrrd .nhdr", true, recognisesNrrd, openNrrd},
     {"NIfTI", ".nii .nii.gz .hdr/.img", true, recognisesNifti, openNifti},
+    {"MetaImage", ".mha .mhd", true, recognisesMetaImage, openMetaImage},
     {"raw", ".raw .raw.gz", false, recognisesRaw, openRaw},
 }};
 

@@ -10,6 +10,7 @@
 
 #include "burin/common/error.hpp"
 #include "gzip_stream.hpp"
+#include "pieced_voxels.hpp"
 #include "raw_voxels.hpp"
 #include "streamed_voxels.hpp"
 #include "text_stream.hpp"
@@ -102,6 +103,8 @@ namespace {
 std::unique_ptr<StoredReader> rawReader(const StoredLayout& layout, const StoredVoxels& stored,
                                         std::uint64_t skipped) {
   const std::uint64_t start = stored.fileOffset + skipped;
+  if (!stored.pieces.empty())
+    return std::make_unique<PiecedVoxels>(layout, stored.pieces, start, stored.bigEndian);
   return std::make_unique<RawVoxels>(layout, stored.file, start, stored.bigEndian,
                                      stored.exactSize);
 }

@@ -21,6 +21,9 @@ struct StoredVoxels {
   enum class Encoding { kRaw, kGzip, kZlib, kAscii };
 
   std::filesystem::path file;  ///< that holds the voxels; not always the one the user named
+  /// Raw only: the files of a volume in pieces along z, all of the same length; then `file` is
+  /// empty.
+  std::vector<std::filesystem::path> pieces;
   Encoding encoding = Encoding::kRaw;
   std::uint64_t fileOffset = 0;    ///< bytes of `file` before the voxels, or before their stream
   std::uint64_t streamOffset = 0;  ///< encoded only: decoded bytes before the first voxel

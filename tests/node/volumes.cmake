@@ -2,6 +2,7 @@
 burin_add_test(volume_test
   SOURCES volume_formats_test.cpp volume_orientation_test.cpp volume_error_test.cpp
           raw_name_test.cpp volume_writer_test.cpp procedural_test.cpp
+          metaimage_test.cpp
   LIBRARIES burin::volumes ZLIB::ZLIB
   LABELS node sanitize TIMEOUT 120)
 target_include_directories(volume_test PRIVATE ${PROJECT_SOURCE_DIR}/node/src)
