@@ -33,6 +33,10 @@ struct FileFormat {
 /// In the order in which they are asked.
 std::span<const FileFormat> fileFormats();
 
+/// The file in "FILE:/path", as datasets in HDF5 files are named; what was written if it is not
+/// that.
+std::string hdf5File(const std::string& written);
+
 // The readers, one file each.
 bool recognisesNrrd(const FileStart& start);
 std::unique_ptr<BrickSource> openNrrd(const VolumeChoice& choice);
@@ -40,6 +44,8 @@ bool recognisesNifti(const FileStart& start);
 std::unique_ptr<BrickSource> openNifti(const VolumeChoice& choice);
 bool recognisesMetaImage(const FileStart& start);
 std::unique_ptr<BrickSource> openMetaImage(const VolumeChoice& choice);
+bool recognisesHdf5(const FileStart& start);
+std::unique_ptr<BrickSource> openHdf5(const VolumeChoice& choice);
 bool recognisesRaw(const FileStart& start);
 std::unique_ptr<BrickSource> openRaw(const VolumeChoice& choice);
 

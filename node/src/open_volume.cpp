@@ -16,10 +16,11 @@ namespace {
 
 constexpr std::size_t kStartBytes = 1024;
 
-constexpr std::array<FileFormat, 4> kFormats{{
+constexpr std::array<FileFormat, 5> kFormats{{
     {"NRRD", ".nrrd .nhdr", true, recognisesNrrd, openNrrd},
     {"NIfTI", ".nii .nii.gz .hdr/.img", true, recognisesNifti, openNifti},
     {"MetaImage", ".mha .mhd", true, recognisesMetaImage, openMetaImage},
+    {"HDF5", ".h5:/PATH", true, recognisesHdf5, openHdf5},
     {"raw", ".raw .raw.gz", false, recognisesRaw, openRaw},
 }};
 
@@ -37,7 +38,7 @@ void tryToInflate(const std::filesystem::path& file, std::vector<std::byte>& byt
 }
 
 FileStart readStart(const VolumeChoice& choice) {
-  const std::filesystem::path file{choice.file};
+  const std::filesystem::path file{hdf5File(choice.file)};
   FileStart start;
   start.hasDims = choice.dims.has_value();
   regularFileSize(file);
