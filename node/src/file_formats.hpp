@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <span>
@@ -16,6 +17,8 @@ struct FileStart {
   std::string lowerName;         ///< file name in lower case, without folders
   std::vector<std::byte> bytes;  ///< the first ones, inflated if the file is gzip; at most 1024
   bool hasDims = false;          ///< the user gave dims, as for a bare raw file
+  bool isFolder = false;         ///< no bytes then
+  std::filesystem::path path;
 
   bool nameEndsWith(std::string_view suffix) const { return lowerName.ends_with(suffix); }
   bool startsWith(std::string_view text, std::size_t at = 0) const;
@@ -46,6 +49,8 @@ bool recognisesMetaImage(const FileStart& start);
 std::unique_ptr<BrickSource> openMetaImage(const VolumeChoice& choice);
 bool recognisesHdf5(const FileStart& start);
 std::unique_ptr<BrickSource> openHdf5(const VolumeChoice& choice);
+bool recognisesDicom(const FileStart& start);
+std::unique_ptr<BrickSource> openDicom(const VolumeChoice& choice);
 bool recognisesRaw(const FileStart& start);
 std::unique_ptr<BrickSource> openRaw(const VolumeChoice& choice);
 

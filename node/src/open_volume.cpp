@@ -16,11 +16,12 @@ namespace {
 
 constexpr std::size_t kStartBytes = 1024;
 
-constexpr std::array<FileFormat, 5> kFormats{{
+constexpr std::array<FileFormat, 6> kFormats{{
     {"NRRD", ".nrrd .nhdr", true, recognisesNrrd, openNrrd},
     {"NIfTI", ".nii .nii.gz .hdr/.img", true, recognisesNifti, openNifti},
     {"MetaImage", ".mha .mhd", true, recognisesMetaImage, openMetaImage},
     {"HDF5", ".h5:/PATH", true, recognisesHdf5, openHdf5},
+    {"DICOM", ".dcm, a folder", true, recognisesDicom, openDicom},
     {"raw", ".raw .raw.gz", false, recognisesRaw, openRaw},
 }};
 
@@ -40,11 +41,16 @@ void tryToInflate(const std::filesystem::path& file, std::vector<std::byte>& byt
 FileStart readStart(const VolumeChoice& choice) {
   const std::filesystem::path file{hdf5File(choice.file)};
   FileStart start;
+  start.path = file;
   start.hasDims = choice.dims.has_value();
-  regularFileSize(file);
+  std::error_code ignored;  // what is no file either, is said below
+  start.isFolder = std::filesystem::is_directory(file, ignored);
+  const bool hasBytes = !start.isFolder;
+  if (hasBytes) regularFileSize(file);
   start.lowerName = file.filename().string();
   std::ranges::transform(start.lowerName, start.lowerName.begin(),
                          [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (!hasBytes) return start;
   start.bytes.resize(kStartBytes);
   start.bytes.resize(FileHandle{file}.readSome(0, start.bytes));
   if (start.startsWith("\x1f\x8b")) tryToInflate(file, start.bytes);
@@ -55,6 +61,9 @@ const FileFormat& formatOf(const VolumeChoice& choice) {
   const FileStart start = readStart(choice);
   for (const FileFormat& format : kFormats) {
     if (format.recognises(start)) return format;
+  }
+  if (start.isFolder) {
+    fail(ExitCode::kVolume, "{}: a folder without DICOM images", choice.file);
   }
   std::string known;
   for (const FileFormat& format : kFormats) {
@@ -118,6 +127,10 @@ std::unique_ptr<BrickSource> openVolume(const VolumeChoice& choice) {
   if (format.selfDescribing && (choice.dims || choice.type || choice.endian)) {
     fail(ExitCode::kUsage, "{}: dims, type and endian are for bare raw files; {} says them itself",
          choice.file, format.name);
+  }
+  if (choice.series && format.name != "DICOM") {
+    fail(ExitCode::kUsage, "{}: --series is for DICOM folders, and this is {}", choice.file,
+         format.name);
   }
   std::unique_ptr<BrickSource> source = format.open(choice);
   if (!choice.spacing) return source;

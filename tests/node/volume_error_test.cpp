@@ -54,7 +54,7 @@ class VolumeErrors : public testing::Test {
 TEST_F(VolumeErrors, Files) {
   expectError(fileChoice((folder_.path() / "none.nrrd").string()), ExitCode::kVolume,
               {"none.nrrd", "no such file"});
-  expectError(fileChoice(folder_.path().string()), ExitCode::kVolume, {"not a regular file"});
+  expectError(fileChoice(folder_.path().string()), ExitCode::kVolume, {"without DICOM images"});
   expectError("a.xyz", "something", {"unknown file format", ".nrrd", ".nii.gz", "--dims"});
   expectError("empty.nrrd", "", {"bad NRRD header"});
 }
