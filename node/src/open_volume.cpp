@@ -16,10 +16,12 @@ namespace {
 
 constexpr std::size_t kStartBytes = 1024;
 
-constexpr std::array<FileFormat, 6> kFormats{{
+constexpr std::array<FileFormat, 8> kFormats{{
     {"NRRD", ".nrrd .nhdr", true, recognisesNrrd, openNrrd},
     {"NIfTI", ".nii .nii.gz .hdr/.img", true, recognisesNifti, openNifti},
     {"MetaImage", ".mha .mhd", true, recognisesMetaImage, openMetaImage},
+    {"VTK", ".vtk", true, recognisesVtk, openVtk},
+    {"VTK XML", ".vti", true, recognisesVti, openVti},
     {"HDF5", ".h5:/PATH", true, recognisesHdf5, openHdf5},
     {"DICOM", ".dcm, a folder", true, recognisesDicom, openDicom},
     {"raw", ".raw .raw.gz", false, recognisesRaw, openRaw},

@@ -14,6 +14,7 @@ find_package(OpenImageIO 2.4 REQUIRED)
 find_package(NIFTI REQUIRED)
 find_package(Teem REQUIRED)
 find_package(GDCM REQUIRED MODULE)
+find_package(EXPAT REQUIRED)
 pkg_check_modules(HDF5 REQUIRED IMPORTED_TARGET hdf5-serial)
 
 if(NOT TARGET glm::glm)
