@@ -7,7 +7,7 @@ burin_library(volumes
           src/nrrd_reader.cpp src/nifti_reader.cpp src/metaimage_reader.cpp
           src/hdf5_reader.cpp src/dicom_reader.cpp src/dicom_series.cpp src/dicom_image.cpp
           src/vtk_reader.cpp src/vti_reader.cpp src/vti_header.cpp src/base64_stream.cpp
-          src/zlib_block_stream.cpp src/text_fields.cpp
+          src/zlib_block_stream.cpp src/picture_reader.cpp src/picture_files.cpp src/text_fields.cpp
           src/number_pattern.cpp src/raw_reader.cpp src/raw_name.cpp
           src/procedural.cpp src/vessel_tree.cpp src/ct_phantom.cpp
           src/volume_writer.cpp src/gzip_writer.cpp src/nrrd_header.cpp src/nifti_header.cpp
@@ -15,7 +15,7 @@ burin_library(volumes
           src/survey.cpp src/range_survey.cpp src/gradient_survey.cpp src/operator_weights.cpp
           src/smoothed_laplacian.cpp src/laplacian_survey.cpp
   PUBLIC burin::scene burin::mpi
-  PRIVATE Teem::teem NIFTI::nifti2 GDCM::gdcm PkgConfig::HDF5 EXPAT::EXPAT
+  PRIVATE Teem::teem NIFTI::nifti2 GDCM::gdcm PkgConfig::HDF5 OpenImageIO::OpenImageIO EXPAT::EXPAT
           ZLIB::ZLIB)
 burin_unity(burin_volumes)
 # It has a readHeader of its own, as nrrd_reader.cpp does.

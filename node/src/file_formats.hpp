@@ -40,6 +40,9 @@ std::span<const FileFormat> fileFormats();
 /// that.
 std::string hdf5File(const std::string& written);
 
+/// Whether the name stands for numbered pictures, "slice%03d.png".
+bool isPicturePattern(const std::string& written);
+
 // The readers, one file each.
 bool recognisesNrrd(const FileStart& start);
 std::unique_ptr<BrickSource> openNrrd(const VolumeChoice& choice);
@@ -53,6 +56,8 @@ bool recognisesVti(const FileStart& start);
 std::unique_ptr<BrickSource> openVti(const VolumeChoice& choice);
 bool recognisesHdf5(const FileStart& start);
 std::unique_ptr<BrickSource> openHdf5(const VolumeChoice& choice);
+bool recognisesPictures(const FileStart& start);
+std::unique_ptr<BrickSource> openPictures(const VolumeChoice& choice);
 bool recognisesDicom(const FileStart& start);
 std::unique_ptr<BrickSource> openDicom(const VolumeChoice& choice);
 bool recognisesRaw(const FileStart& start);

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kStartBytes = 1024;
 
-constexpr std::array<FileFormat, 8> kFormats{{
+constexpr std::array<FileFormat, 9> kFormats{{
     {"NRRD", ".nrrd .nhdr", true, recognisesNrrd, openNrrd},
     {"NIfTI", ".nii .nii.gz .hdr/.img", true, recognisesNifti, openNifti},
     {"MetaImage", ".mha .mhd", true, recognisesMetaImage, openMetaImage},
@@ -24,6 +24,7 @@ constexpr std::array<FileFormat, 8> kFormats{{
     {"VTK XML", ".vti", true, recognisesVti, openVti},
     {"HDF5", ".h5:/PATH", true, recognisesHdf5, openHdf5},
     {"DICOM", ".dcm, a folder", true, recognisesDicom, openDicom},
+    {"pictures", ".tif, slice%03d.png, a folder", true, recognisesPictures, openPictures},
     {"raw", ".raw .raw.gz", false, recognisesRaw, openRaw},
 }};
 
@@ -47,7 +48,7 @@ FileStart readStart(const VolumeChoice& choice) {
   start.hasDims = choice.dims.has_value();
   std::error_code ignored;  // what is no file either, is said below
   start.isFolder = std::filesystem::is_directory(file, ignored);
-  const bool hasBytes = !start.isFolder;
+  const bool hasBytes = !start.isFolder && !isPicturePattern(choice.file);
   if (hasBytes) regularFileSize(file);
   start.lowerName = file.filename().string();
   std::ranges::transform(start.lowerName, start.lowerName.begin(),
@@ -65,7 +66,7 @@ const FileFormat& formatOf(const VolumeChoice& choice) {
     if (format.recognises(start)) return format;
   }
   if (start.isFolder) {
-    fail(ExitCode::kVolume, "{}: a folder without DICOM images", choice.file);
+    fail(ExitCode::kVolume, "{}: a folder without DICOM images or numbered pictures", choice.file);
   }
   std::string known;
   for (const FileFormat& format : kFormats) {

@@ -13,7 +13,9 @@ constexpr int kMostFrames = 1'000'000;
 
 constexpr const char* kRenderFooter =
     R"(A file named .json is a scene, any other a volume, which is drawn with a scene made from its
-histogram; --save-scene writes that scene down, to be edited.
+histogram; --save-scene writes that scene down, to be edited. Volumes are NRRD, NIfTI, MetaImage, DICOM
+(a folder), VTK (.vtk, .vti), HDF5 (file.h5:/path/of/dataset), TIFF stacks, numbered pictures
+(slice%03d.png or their folder), or bare voxels (--dims and --type, unless the name says them).
 
 --set takes the path of a key in the scene file and a JSON value, or a bare word:
   --set layers.0.style.tone.strength=0.5   --set quality.step_voxels=0.25
