@@ -97,6 +97,38 @@ TEST(Info, DrawsAHistogram) {
   EXPECT_THAT(info, ContainsRegex("\n  0 +63\n"));
 }
 
+TEST(Info, ShowsEncodingAndComponents) {
+  const TemporaryFolder folder;
+  folder.write("rgb.mha",
+               "ObjectType = Image\nNDims = 3\nDimSize = 1 2 2\nElementType = MET_CHAR\n"
+               "ElementNumberOfChannels = 3\nElementDataFile = LOCAL\nabcdefghijkl");
+  const std::string info = infoOf({folder / "rgb.mha", "--component", "2"}, 3);
+  EXPECT_THAT(info, HasSubstr("MetaImage, raw i8, 3 components per voxel"));
+  EXPECT_THAT(info, HasSubstr("99 … 108"));  // c … l
+}
+
+TEST(Info, BrokenVolumesEndInOneLineWhateverTheRanks) {
+  const TemporaryFolder folder;
+  const std::string fields =
+      "ObjectType = Image\nNDims = 3\nDimSize = 64 64 64\nElementType = MET_UCHAR\n";
+  folder.write("absent.mhd", fields + "ElementDataFile = absent.raw\n");
+  folder.write("stream.mha", fields + "CompressedData = True\nElementDataFile = LOCAL\n" +
+                                 std::string(500, '\x55'));
+  folder.write("colours.mha", fields + "ElementNumberOfChannels = 3\nElementDataFile = LOCAL\n");
+  std::filesystem::create_directory(folder / "empty");
+  for (const auto& [file, part] : {std::pair{"absent.mhd", "absent.raw: no such file"},
+                                   {"stream.mha", "zlib stream is damaged"},
+                                   {"colours.mha", "--component 0 ... 2"},
+                                   {"empty", "without DICOM images"}}) {
+    for (const int ranks : {1, 3}) {
+      const auto result = runBurin({"info", folder / file}, ranks);
+      EXPECT_EQ(result.exitCode, 3) << file;
+      EXPECT_THAT(onlyLine(result.err), HasSubstr(part));
+      EXPECT_THAT(result.out, IsEmpty());
+    }
+  }
+}
+
 /// A NIfTI-1 file of 4 x 4 x 4 u8 voxels whose values are twice what is stored, plus one.
 void writeScaledNifti(const std::string& path) {
   std::string file(352 + 64, '\0');

@@ -1,0 +1,222 @@
+// Volumes that other programs wrote (write_volumes.py): the voxels are theirs bit for bit, after
+// the conversion that NumPy makes of them, and lie where they say.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <random>
+#include <sstream>
+
+#include "volume_files.hpp"
+#include "voxel_access.hpp"
+
+namespace burin::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A line of cases.txt.
+struct Case {
+  std::string file;
+  std::string option;
+  glm::ivec3 dims{0};
+  std::string type;
+  std::string expected;
+  std::string geometry;
+};
+
+std::string contentOf(const fs::path& file) {
+  std::ifstream in{file, std::ios::binary};
+  return {std::istreambuf_iterator<char>{in}, {}};
+}
+
+/// What the script wrote, once for all tests.
+struct Written {
+  Written() {
+    const std::string command =
+        fmt::format("/usr/bin/python3 '{}' '{}' > '{}' 2>&1", BURIN_WRITE_VOLUMES,
+                    folder.path().string(), folder / "log.txt");
+    isThere = fs::exists("/usr/bin/python3") && std::system(command.c_str()) == 0;
+    std::istringstream lines{contentOf(folder.path() / "cases.txt")};
+    for (std::string line; std::getline(lines, line);) {
+      std::istringstream fields{line};
+      Case one;
+      std::string dims;
+      for (std::string* field :
+           {&one.file, &one.option, &dims, &one.type, &one.expected, &one.geometry})
+        std::getline(fields, *field, '\t');
+      std::istringstream{dims} >> one.dims.x >> one.dims.y >> one.dims.z;
+      cases.push_back(one);
+    }
+  }
+  TemporaryFolder folder;
+  bool isThere = false;
+  std::vector<Case> cases;
+};
+
+const Written& written() {
+  static const Written all;
+  return all;
+}
+
+VolumeChoice choiceOf(const Case& one) {
+  VolumeChoice choice = fileChoice(written().folder / one.file.c_str());
+  const std::string value = one.option.substr(one.option.find('=') + 1);
+  if (one.option.starts_with("component=")) choice.component = std::stoi(value);
+  if (one.option.starts_with("series=")) choice.series = value;
+  return choice;
+}
+
+/// Spacing, origin and directions as the writer was told. Text formats have six digits or more,
+/// NIfTI and TIFF single precision.
+void expectGeometry(const node::VolumeInfo& info, const std::string& text) {
+  if (text == "-") return;
+  std::istringstream in{text};
+  const std::vector<double> numbers{std::istream_iterator<double>{in}, {}};
+  ASSERT_EQ(numbers.size(), 16U) << text;
+  EXPECT_EQ(info.anatomical, numbers[0] != 0);
+  constexpr double kGeometryTolerance = 1e-5;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto a = static_cast<std::size_t>(axis);
+    EXPECT_NEAR(info.grid.spacing[axis], numbers[1 + a], kGeometryTolerance) << "axis " << axis;
+    EXPECT_NEAR(info.grid.origin[axis], numbers[4 + a], kGeometryTolerance) << "axis " << axis;
+    for (int row = 0; row < 3; ++row) {
+      EXPECT_NEAR(info.grid.direction[axis][row],
+                  numbers[7 + 3 * a + static_cast<std::size_t>(row)], kGeometryTolerance)
+          << "axis " << axis;
+    }
+  }
+}
+
+std::string bytesOf(node::BrickSource& source, const IndexBox& box) {
+  std::string bytes(box.count() * node::bytesPerVoxel(source.info().type), '\0');
+  source.load(box, std::as_writable_bytes(std::span{bytes}));
+  return bytes;
+}
+
+/// The box's voxels out of those of the whole volume.
+std::string pickedBytes(const std::string& all, const glm::ivec3& dims, const IndexBox& box,
+                        std::size_t bytesPerVoxel) {
+  std::string bytes(box.count() * bytesPerVoxel, '\0');
+  node::copyVoxels(std::as_bytes(std::span{all}), {glm::ivec3{0}, dims},
+                   std::as_writable_bytes(std::span{bytes}), box, box, bytesPerVoxel);
+  return bytes;
+}
+
+void expectCase(const Case& one) {
+  SCOPED_TRACE(fmt::format("{} {}", one.file, one.option));
+  const auto source = node::openVolume(choiceOf(one));
+  const node::VolumeInfo& info = source->info();
+  EXPECT_EQ(node::voxelTypeName(info.type), one.type);
+  ASSERT_EQ(info.grid.dims, one.dims);
+  expectGeometry(info, one.geometry);
+  const std::string expected = contentOf(written().folder.path() / one.expected);
+  ASSERT_EQ(expected.size(), info.bytes());
+  EXPECT_EQ(bytesOf(*source, {glm::ivec3{0}, one.dims}), expected);
+  // As bricks do: parts, and slabs in ascending z after others were read.
+  const std::size_t each = node::bytesPerVoxel(info.type);
+  for (const IndexBox& box :
+       {IndexBox{{2, 1, 3}, {6, 4, 5}}, {{0, 0, 1}, {7, 5, 2}}, {{6, 4, 5}, {7, 5, 6}}}) {
+    EXPECT_EQ(bytesOf(*source, box), pickedBytes(expected, one.dims, box, each));
+  }
+}
+
+class ForeignVolumes : public testing::TestWithParam<const char*> {};
+
+// By the beginnings of the files' names, which say who wrote them.
+INSTANTIATE_TEST_SUITE_P(Writers, ForeignVolumes,
+                         testing::Values("unu", "vtk", "png", "tifffile", "imagej", "tiled", "rgb",
+                                         "many.h5", "one.h5", "dicom"),
+                         [](const auto& writer) {
+                           std::string name = writer.param;
+                           std::erase(name, '.');
+                           return name;
+                         });
+
+TEST_P(ForeignVolumes, AreReadBitForBit) {
+  if (!written().isThere && written().cases.empty())
+    GTEST_SKIP() << "write_volumes.py failed: " << contentOf(written().folder.path() / "log.txt");
+  int seen = 0;
+  for (const Case& one : written().cases) {
+    if (!one.file.starts_with(GetParam())) continue;
+    expectCase(one);
+    ++seen;
+  }
+  if (seen == 0)
+    GTEST_SKIP() << "not installed: " << contentOf(written().folder.path() / "missing.txt");
+}
+
+/// The whole volume as floats.
+std::vector<float> valuesOf(node::BrickSource& source) {
+  const std::string bytes = bytesOf(source, {glm::ivec3{0}, source.info().grid.dims});
+  std::vector<float> values(source.info().grid.voxelCount());
+  node::widenToFloat(source.info().type, std::as_bytes(std::span{bytes}), values);
+  return values;
+}
+
+// A converter may turn the order of rows and slices over; in the world all stays where it is.
+TEST(ConvertedDicom, StandsInTheSamePlace) {
+  std::istringstream lines{contentOf(written().folder.path() / "pairs.txt")};
+  int seen = 0;
+  for (std::string line; std::getline(lines, line); ++seen) {
+    SCOPED_TRACE(line);
+    const std::size_t tab = line.find('\t');
+    const auto dicom = node::openVolume(fileChoice(written().folder / line.substr(0, tab).c_str()));
+    const auto nifti =
+        node::openVolume(fileChoice(written().folder / line.substr(tab + 1).c_str()));
+    EXPECT_TRUE(dicom->info().anatomical && nifti->info().anatomical);
+    const VolumeGrid& from = dicom->info().grid;
+    const VolumeGrid& to = nifti->info().grid;
+    const auto values = valuesOf(*dicom);
+    const auto converted = valuesOf(*nifti);
+    ASSERT_EQ(values.size(), converted.size());
+    std::size_t at = 0;
+    for (int k = 0; k < from.dims.z; ++k)
+      for (int j = 0; j < from.dims.y; ++j)
+        for (int i = 0; i < from.dims.x; ++i, ++at) {
+          const glm::dvec3 index = to.indexFromWorld(from.worldFromIndex(glm::dvec3{i, j, k}));
+          const glm::ivec3 voxel{glm::round(index)};
+          ASSERT_LE(glm::distance(index, glm::dvec3{voxel}),
+                    1e-4);  // single precision in the header
+          ASSERT_TRUE((IndexBox{glm::ivec3{0}, to.dims}.contains({voxel, voxel + 1})));
+          const int there = (voxel.z * to.dims.y + voxel.y) * to.dims.x + voxel.x;
+          ASSERT_EQ(values[at], converted[static_cast<std::size_t>(there)]);
+        }
+  }
+  if (seen == 0) GTEST_SKIP() << contentOf(written().folder.path() / "missing.txt");
+}
+
+/// What comes of opening a file and loading all of it.
+Error errorOf(const std::string& file) {
+  try {
+    const auto source = node::openVolume(fileChoice(file));
+    bytesOf(*source, {glm::ivec3{0}, source->info().grid.dims});
+  } catch (const Error& error) {
+    return error;
+  }
+  return Error{ExitCode::kDone, "nothing failed"};
+}
+
+TEST(BrokenVolumes, AreRefusedInOneLine) {
+  std::istringstream lines{contentOf(written().folder.path() / "refused.txt")};
+  int seen = 0;
+  for (std::string line; std::getline(lines, line); ++seen) {
+    std::istringstream fields{line};
+    std::string file;
+    std::getline(fields, file, '\t');
+    SCOPED_TRACE(file);
+    const Error error = errorOf(written().folder / file.c_str());
+    EXPECT_EQ(error.code(), ExitCode::kVolume) << error.what();
+    EXPECT_THAT(error.what(), testing::Not(testing::HasSubstr("\n")));
+    EXPECT_THAT(error.what(), testing::HasSubstr(written().folder.path().string()));
+    for (std::string part; std::getline(fields, part, '\t');)
+      EXPECT_THAT(error.what(), testing::HasSubstr(part));
+  }
+  if (seen == 0) GTEST_SKIP() << contentOf(written().folder.path() / "log.txt");
+}
+
+}  // namespace
+}  // namespace burin::test
