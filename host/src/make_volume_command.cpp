@@ -24,6 +24,10 @@ void makeVolume(const MakeVolumeOptions& options) {
     progress.show(fmt::format("writing {:.0f} %", 100 * share));
   };
   node::writeVolume(*source, options.output, writing);
+  const std::string name = options.output.filename().string();
+  if (options.spacing != glm::dvec3{1} && (name.ends_with(".raw") || name.ends_with(".raw.gz")))
+    note("{}: bare voxels; reading them takes --spacing {},{},{}", options.output.string(),
+         options.spacing.x, options.spacing.y, options.spacing.z);
 }
 
 }  // namespace

@@ -55,6 +55,10 @@ void writeNrrd(BrickSource& source, const fs::path& file, const WriteOptions& op
 void writeDetachedNrrd(BrickSource& source, const fs::path& file, const WriteOptions& options) {
   fs::path voxelFile = file;
   voxelFile.replace_extension(options.gzip ? ".raw.gz" : ".raw");
+  if (fs::exists(voxelFile) && !fs::exists(file)) {
+    fail(ExitCode::kUsage, "{}: is there without {} and would be replaced (expected another name)",
+         voxelFile.string(), file.filename().string());
+  }
   TemporaryFile voxels{voxelFile};
   TemporaryFile header{file};
   header.write(bytesOf(nrrdHeader(source.info(), options.gzip, voxelFile.filename().string())));

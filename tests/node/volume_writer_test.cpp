@@ -113,6 +113,21 @@ TEST_P(VolumeWriterHeader, OrientationIsKept) {
   }
 }
 
+TEST(DetachedNrrd, KeepsVoxelsThatBelongToNothing) {
+  const TemporaryFolder folder;
+  folder.write("x.raw", "somebody's own");
+  const auto source = node::makeProcedural("ramp", {4, 4, 4}, VoxelType::kU8, {1, 1, 1});
+  try {
+    node::writeVolume(*source, folder / "x.nhdr");
+    ADD_FAILURE() << "was written";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kUsage);
+    EXPECT_THAT(error.what(), HasSubstr("x.raw"));
+  }
+  EXPECT_THAT(folder.names(), ElementsAre("x.raw"));
+  EXPECT_EQ(std::filesystem::file_size(folder / "x.raw"), 14U);
+}
+
 /// Fails when a slice from z = 2 on is asked for.
 class FailingSource : public ArraySource {
  public:
