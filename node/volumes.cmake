@@ -15,8 +15,19 @@ burin_library(volumes
           src/survey.cpp src/range_survey.cpp src/gradient_survey.cpp src/operator_weights.cpp
           src/smoothed_laplacian.cpp src/laplacian_survey.cpp
   PUBLIC burin::scene burin::mpi
-  PRIVATE Teem::teem NIFTI::nifti2 GDCM::gdcm PkgConfig::HDF5 OpenImageIO::OpenImageIO EXPAT::EXPAT
-          ZLIB::ZLIB)
+  PRIVATE Teem::teem NIFTI::nifti2 GDCM::gdcm PkgConfig::HDF5 EXPAT::EXPAT ZLIB::ZLIB
+          ${CMAKE_DL_LIBS})
 burin_unity(burin_volumes)
 # It has a readHeader of its own, as nrrd_reader.cpp does.
 set_source_files_properties(src/nifti_reader.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+
+# OpenImageIO, in a module of its own that is opened where a volume of pictures is read
+# (picture_file.hpp). It lies as far from the programs of the build tree as from the installed one.
+file(RELATIVE_PATH module_folder ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR}/burin)
+add_library(burin_picture_files MODULE src/picture_module.cpp)
+target_link_libraries(burin_picture_files PRIVATE OpenImageIO::OpenImageIO burin_warnings)
+set_target_properties(burin_picture_files PROPERTIES
+  LIBRARY_OUTPUT_DIRECTORY ${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/${module_folder})
+target_compile_definitions(burin_volumes PRIVATE
+  BURIN_PICTURE_FILES_MODULE="${module_folder}/$<TARGET_FILE_NAME:burin_picture_files>")
+add_dependencies(burin_volumes burin_picture_files)

@@ -1,5 +1,5 @@
 // Slices as pictures, by OpenImageIO: the pages of a TIFF, numbered files, or a folder of them.
-#include <OpenImageIO/imageio.h>
+#include <dlfcn.h>
 
 #include <algorithm>
 #include <cmath>
@@ -7,6 +7,7 @@
 
 #include "burin/common/error.hpp"
 #include "file_formats.hpp"
+#include "picture_file.hpp"
 #include "picture_files.hpp"
 #include "stored_voxels.hpp"
 #include "text_fields.hpp"
@@ -28,49 +29,45 @@ struct PictureStack {
   int page(int z) const { return files.size() == 1 ? z : 0; }
 };
 
-using Picture = std::unique_ptr<OIIO::ImageInput>;
+using Picture = std::unique_ptr<PictureFile>;
 
 std::string oneLine(std::string text) {
   std::ranges::replace(text, '\n', ' ');
   return std::string{trimmed(text)};
 }
 
+/// Never closed: OpenImageIO has threads of its own.
+OpenPictureFile* openModule() {
+  std::error_code none;
+  const fs::path program = fs::read_symlink("/proc/self/exe", none);
+  const fs::path module = (program.parent_path() / BURIN_PICTURE_FILES_MODULE).lexically_normal();
+  // Lazy, as programs are linked: binding every function of every library would take seconds.
+  void* const library = dlopen(module.c_str(), RTLD_LAZY | RTLD_LOCAL);
+  void* const function = library == nullptr ? nullptr : dlsym(library, kOpenPictureFile);
+  // NOLINTNEXTLINE(concurrency-mt-unsafe): one thread
+  if (function == nullptr) fail(ExitCode::kRank, "no pictures can be read: {}", dlerror());
+  return reinterpret_cast<OpenPictureFile*>(function);
+}
+
 Picture openPicture(const fs::path& file) {
+  static OpenPictureFile* const open = openModule();
   regularFileSize(file);
-  OIIO::ImageSpec wanted;
-  wanted.attribute("oiio:UnassociatedAlpha", 1);  // numbers as they are stored
-  Picture picture = OIIO::ImageInput::open(file.string(), &wanted);
+  std::string reason;
+  Picture picture{open(file.string(), reason)};
   if (picture == nullptr) {
-    fail(ExitCode::kVolume, "{}: bad picture: {}", file.string(), oneLine(OIIO::geterror()));
+    fail(ExitCode::kVolume, "{}: bad picture: {}", file.string(), oneLine(reason));
   }
   return picture;
 }
 
-constexpr std::pair<OIIO::TypeDesc::BASETYPE, StoredType> kPixelTypes[] = {
-    {OIIO::TypeDesc::UINT8, StoredType::kU8},   {OIIO::TypeDesc::INT8, StoredType::kI8},
-    {OIIO::TypeDesc::UINT16, StoredType::kU16}, {OIIO::TypeDesc::INT16, StoredType::kI16},
-    {OIIO::TypeDesc::UINT32, StoredType::kU32}, {OIIO::TypeDesc::INT32, StoredType::kI32},
-    {OIIO::TypeDesc::FLOAT, StoredType::kF32},  {OIIO::TypeDesc::DOUBLE, StoredType::kF64},
-    {OIIO::TypeDesc::HALF, StoredType::kF32}};
-
-StoredType typeOf(const fs::path& file, const OIIO::TypeDesc& format) {
-  for (const auto& [theirs, ours] : kPixelTypes) {
-    if (theirs == format.basetype) return ours;
+StoredLayout pageLayout(const fs::path& file, PictureFile& picture, int page) {
+  const PageShape shape = picture.shape(page);
+  const auto type = storedTypeFromName(shape.type);
+  if (!type) {
+    fail(ExitCode::kVolume, "{}: pixel type \"{}\" is not supported (expected {})", file.string(),
+         shape.type, supportedTypeNames());
   }
-  fail(ExitCode::kVolume, "{}: pixel type \"{}\" is not supported (expected {})", file.string(),
-       format.c_str(), supportedTypeNames());
-}
-
-OIIO::TypeDesc memoryType(StoredType type) {
-  for (const auto& [theirs, ours] : kPixelTypes) {
-    if (ours == type) return theirs;
-  }
-  throw std::logic_error{"no pixel has this type"};
-}
-
-StoredLayout pageLayout(const fs::path& file, const OIIO::ImageSpec& spec) {
-  return {checkedDims(file.string(), {spec.width, spec.height, 1}), typeOf(file, spec.format),
-          spec.nchannels};
+  return {checkedDims(file.string(), {shape.width, shape.height, 1}), *type, shape.channels};
 }
 
 /// Throws unless a page is like the first one.
@@ -109,12 +106,10 @@ class PictureVoxels : public SliceReader {
       open_ = openPicture(file);
       openFile_ = file;
     }
-    const OIIO::ImageSpec spec = open_->spec_dimensions(page);
-    checkPage(file, page, pageLayout(file, spec), layout_);
-    if (!open_->read_image(page, 0, 0, spec.nchannels, memoryType(layout_.type), scratch_.data())) {
-      fail(ExitCode::kVolume, "{}: page {} cannot be read: {}", file.string(), page,
-           oneLine(open_->geterror()));
-    }
+    checkPage(file, page, pageLayout(file, *open_, page), layout_);
+    const std::string reason = open_->read(page, scratch_);
+    if (reason.empty()) return;
+    fail(ExitCode::kVolume, "{}: page {} cannot be read: {}", file.string(), page, oneLine(reason));
   }
 
   PictureStack stack_;
@@ -128,8 +123,7 @@ class PictureVoxels : public SliceReader {
 PictureStack stackOf(const std::string& written) {
   PictureStack stack{pictureFiles(written)};
   if (stack.files.size() > 1) return stack;
-  const Picture picture = openPicture(stack.files.front());
-  while (picture->seek_subimage(stack.pages, 0)) ++stack.pages;
+  stack.pages = openPicture(stack.files.front())->pages();
   if (stack.pages > 1) return stack;
   fail(ExitCode::kVolume,
        "{}: one picture is no volume (expected a TIFF of several pages, a name like "
@@ -150,8 +144,8 @@ std::optional<double> imageJNumber(std::string_view description, std::string_vie
 }
 
 /// ImageJ keeps pixels per unit as the resolution, and the distance of slices in the description.
-void setSpacing(const std::string& name, const OIIO::ImageSpec& spec, int pages, VolumeInfo& info) {
-  const std::string description = spec.get_string_attribute("ImageDescription");
+void setSpacing(const std::string& name, PictureFile& picture, int pages, VolumeInfo& info) {
+  const std::string description = picture.text("ImageDescription");
   if (!description.starts_with("ImageJ=")) return;
   const double images = imageJNumber(description, "images").value_or(pages);
   if (images > pages) {
@@ -161,8 +155,8 @@ void setSpacing(const std::string& name, const OIIO::ImageSpec& spec, int pages,
          "sequence)",
          name, images, pages);
   }
-  const double x = spec.get_float_attribute("XResolution", 0);
-  const double y = spec.get_float_attribute("YResolution", 0);
+  const double x = picture.number("XResolution");
+  const double y = picture.number("YResolution");
   const double z = imageJNumber(description, "spacing").value_or(1);
   if (x > 0 && y > 0) info.grid.spacing = {1 / x, 1 / y, std::abs(z)};
 }
@@ -177,22 +171,21 @@ bool recognisesPictures(const FileStart& start) {
 std::unique_ptr<BrickSource> openPictures(const VolumeChoice& choice) {
   PictureStack stack = stackOf(choice.file);
   const Picture first = openPicture(stack.files.front());
-  const OIIO::ImageSpec spec = first->spec(0);
-  StoredLayout layout = pageLayout(stack.files.front(), spec);
+  StoredLayout layout = pageLayout(stack.files.front(), *first, 0);
   layout.dims = checkedDims(choice.file, {layout.dims.x, layout.dims.y, stack.slices()});
   checkLayout(choice.file, layout);
   VolumeInfo info;
   info.name = choice.file;
-  info.format = fmt::format("{} pictures", first->format_name());
+  info.format = fmt::format("{} pictures", first->format());
   info.grid.dims = layout.dims;
-  setSpacing(choice.file, spec, stack.slices(), info);
+  setSpacing(choice.file, *first, stack.slices(), info);
   checkGrid(choice.file, info.grid);
   Conversion conversion;
   conversion.component = chosenComponent(choice, layout.components);
-  const std::string packing = spec.get_string_attribute("compression", "raw");
-  return std::make_unique<StoredSource>(std::move(info),
-                                        std::make_unique<PictureVoxels>(std::move(stack), layout),
-                                        std::move(conversion), packing == "none" ? "raw" : packing);
+  const std::string packing = first->text("compression");
+  return std::make_unique<StoredSource>(
+      std::move(info), std::make_unique<PictureVoxels>(std::move(stack), layout),
+      std::move(conversion), packing.empty() || packing == "none" ? "raw" : packing);
 }
 
 }  // namespace burin::node
