@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "transfer_function_file.hpp"
+
 namespace burin::scene_io {
 
 namespace {
@@ -31,20 +33,6 @@ void checkPoints(const At& at, const std::vector<Point>& points) {
 }
 
 constexpr std::size_t kMostPoints = 4096;
-
-Codec<TransferFunction> transferFunctionCodec() {
-  using F = TransferFunction;
-  return object<F>(
-      {required(field("points",
-                      "Points by rising value, linear between them; two at one value make a step",
-                      &F::points, list(pointCodec(), 1, kMostPoints))),
-       field("opacity_unit_length",
-             "World length that opacities refer to; default the smallest voxel spacing",
-             &F::opacityUnitLength, number(kPositive))},
-      [](const At& at, const F& function) {
-        checkPoints({*at.node.find("points"), json::childPath(at.path, "points")}, function.points);
-      });
-}
 
 Codec<std::vector<OpacityPoint>> lineOpacityCodec() {
   using P = OpacityPoint;
@@ -75,10 +63,45 @@ Codec<StyleSettings> settingsCodec(const StyleSpec& spec) {
   return object<S>(std::move(fields), {}, defaultSettings(spec));
 }
 
-/// "style": a key for each style of the table. Reading in the table's order sorts the settings.
+/// "transfer_function", as people may write it; a file is gone before it is read.
+Codec<TransferFunction> transferFunctionOrFileCodec() {
+  auto codec = transferFunctionCodec();
+  codec.schema = Document{{"anyOf", {std::move(codec.schema), colourMapChoiceSchema()}}};
+  return codec;
+}
+
+/// "style", as people may write it; a name and a base are gone before it is read.
+Codec<std::vector<StyleSettings>> styleOrNameCodec() {
+  auto codec = stylesCodec();
+  addKeySchema(codec.schema, "base", "A named style that the entries beside it change", false,
+               text().schema, std::nullopt);
+  addKeySchema(codec.schema, "without", "Entries of the base that are left out", false,
+               listSchema(1, styleTable().size(), text().schema), std::nullopt);
+  Document name{{"type", "string"}, {"description", "A named style (burin styles), or its file"}};
+  codec.schema = Document{{"anyOf", {std::move(name), std::move(codec.schema)}}};
+  return codec;
+}
+
+}  // namespace
+
+Codec<TransferFunction> transferFunctionCodec() {
+  using F = TransferFunction;
+  constexpr std::size_t kMostPoints = 4096;
+  return object<F>(
+      {required(field("points",
+                      "Points by rising value, linear between them; two at one value make a step",
+                      &F::points, list(pointCodec(), 1, kMostPoints))),
+       field("opacity_unit_length",
+             "World length that opacities refer to; default the smallest voxel spacing",
+             &F::opacityUnitLength, number(kPositive))},
+      [](const At& at, const F& function) {
+        checkPoints({*at.node.find("points"), json::childPath(at.path, "points")}, function.points);
+      });
+}
+
 Codec<std::vector<StyleSettings>> stylesCodec() {
   using Styles = std::vector<StyleSettings>;
-  Fields<Styles> fields;
+  Fields<Styles> fields;  // in the table's order, which sorts the settings
   for (const StyleSpec& spec : styleTable()) {
     fields.push_back(field<Styles, StyleSettings>(
         spec.name, spec.help, settingsCodec(spec),
@@ -92,14 +115,14 @@ Codec<std::vector<StyleSettings>> stylesCodec() {
   return object<Styles>(std::move(fields));
 }
 
-}  // namespace
-
 Codec<Layer> layerCodec() {
   using L = Layer;
   return object<L>(
       {field("name", "Name for people", &L::name, text()),
-       required(field("transfer_function", "Colour and opacity by value", &L::transferFunction,
-                      transferFunctionCodec())),
+       required(field("transfer_function",
+                      "Colour and opacity by value: points, or a file of another "
+                      "program",
+                      &L::transferFunction, transferFunctionOrFileCodec())),
        field<L, std::vector<OpacityPoint>>(
            "line_opacity", "Opacity of the lines by value, in place of the transfer function's",
            lineOpacityCodec(),
@@ -107,8 +130,10 @@ Codec<Layer> layerCodec() {
              return l.lineOpacity.empty() ? std::nullopt : std::optional{l.lineOpacity};
            },
            [](L& l, std::vector<OpacityPoint> points) { l.lineOpacity = std::move(points); }),
-       field("style", "Effects on this layer; an empty entry has its defaults", &L::styles,
-             stylesCodec())});
+       field("style",
+             "Effects on this layer, an empty entry with its defaults; or the name of "
+             "a style",
+             &L::styles, styleOrNameCodec())});
 }
 
 }  // namespace burin::scene_io

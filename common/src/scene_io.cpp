@@ -1,43 +1,25 @@
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <iterator>
-
 #include "burin/common/scene.hpp"
 #include "json_override.hpp"
 #include "scene_keys.hpp"
+#include "style_file.hpp"
+#include "text_file.hpp"
+#include "transfer_function_file.hpp"
 
 namespace burin {
-
-namespace {
-
-/// More than any scene needs; a volume given by mistake is refused before it is read.
-constexpr std::uintmax_t kLargestSceneBytes = std::uintmax_t{16} << 20;
-
-std::string readSceneText(const std::filesystem::path& file) {
-  std::error_code error;
-  const std::uintmax_t bytes = std::filesystem::file_size(file, error);
-  if (error)
-    fail(ExitCode::kUsage, "{}: cannot read the scene: {}", file.string(), error.message());
-  if (bytes > kLargestSceneBytes) {
-    fail(ExitCode::kUsage, "{}: {} bytes are no scene; expected at most {}", file.string(), bytes,
-         kLargestSceneBytes);
-  }
-  errno = 0;
-  std::ifstream stream{file, std::ios::binary};
-  std::string text{std::istreambuf_iterator<char>{stream}, {}};
-  if (!stream.is_open() || stream.bad()) {
-    fail(ExitCode::kUsage, "{}: cannot read the scene: {}", file.string(), std::strerror(errno));
-  }
-  return text;
-}
-
-}  // namespace
 
 Scene parseScene(std::string_view text, std::string_view name,
                  const std::vector<std::string>& overrides) {
   json::Node root = json::read(text, name);
-  for (const std::string& override : overrides) json::applyOverride(root, override);
+  const std::filesystem::path folder = std::filesystem::path{name}.parent_path();
+  const auto expand = [&] {
+    scene_io::expandNamedStyles(root, folder);
+    scene_io::expandColourMaps(root, folder);
+  };
+  expand();  // before each override, so that it finds the keys of what is named, and after the last
+  for (const std::string& override : overrides) {
+    json::applyOverride(root, override);
+    expand();
+  }
   return scene_io::sceneCodec().read({root, ""});
 }
 
@@ -46,7 +28,7 @@ std::string writeScene(const Scene& scene) {
 }
 
 Scene loadScene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
-  Scene scene = parseScene(readSceneText(file), file.string(), overrides);
+  Scene scene = parseScene(readSmallFile(file, "the scene"), file.string(), overrides);
   if (!scene.volume.file.empty()) {
     // An absolute volume.file replaces the folder altogether.
     scene.volume.file = (file.parent_path() / scene.volume.file).lexically_normal().string();

@@ -148,7 +148,7 @@ TEST_F(LoadScene, NamesWhatCannotBeRead) {
   const auto huge = folder_ / "huge.nrrd";
   std::ofstream{huge} << "NRRD0004\n";
   std::filesystem::resize_file(huge, std::uintmax_t{1} << 32);  // sparse: no disk is used
-  EXPECT_THAT(message(huge), testing::HasSubstr("4294967296 bytes are no scene"));
+  EXPECT_THAT(message(huge), testing::HasSubstr("4294967296 bytes, too many for the scene"));
   EXPECT_THAT(message(write("{")), testing::StartsWith((folder_ / "scene.json").string() + ":1:"));
 }
 
