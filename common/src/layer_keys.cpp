@@ -86,7 +86,6 @@ Codec<std::vector<StyleSettings>> styleOrNameCodec() {
 
 Codec<TransferFunction> transferFunctionCodec() {
   using F = TransferFunction;
-  constexpr std::size_t kMostPoints = 4096;
   return object<F>(
       {required(field("points",
                       "Points by rising value, linear between them; two at one value make a step",

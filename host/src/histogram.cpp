@@ -11,33 +11,13 @@ namespace {
 
 using node::VoxelType;
 
-Histogram emptyHistogram(VoxelType type, double lowest, double highest) {
-  Histogram histogram;
-  histogram.lowest = lowest;
-  histogram.highest = highest;
-  const double range = highest - lowest;
-  if (type == VoxelType::kF32) {
-    const bool isConstant = !(range / kMostBins > 0);
-    histogram.binWidth = isConstant ? 1.0 : range / kMostBins;
-    histogram.counts.resize(isConstant ? 1 : kMostBins);
-  } else {
-    histogram.binWidth = std::max(1.0, std::ceil((range + 1) / kMostBins));
-    histogram.counts.resize(static_cast<std::size_t>(std::ceil((range + 1) / histogram.binWidth)));
-  }
-  return histogram;
-}
-
 template <typename Voxel>
 void countVoxels(std::span<const std::byte> bytes, Histogram& histogram) {
-  const double scale = 1.0 / histogram.binWidth;
-  const auto lastBin = static_cast<double>(histogram.counts.size() - 1);
   for (std::size_t at = 0; at < bytes.size(); at += sizeof(Voxel)) {
     Voxel voxel;
     std::memcpy(&voxel, bytes.data() + at, sizeof(Voxel));
     const auto value = static_cast<double>(voxel);
-    if (!std::isfinite(value)) continue;
-    const double bin = std::clamp((value - histogram.lowest) * scale, 0.0, lastBin);
-    ++histogram.counts[static_cast<std::size_t>(bin)];
+    if (std::isfinite(value)) ++histogram.counts[histogram.binOf(value)];
   }
 }
 
@@ -54,19 +34,39 @@ void countSlab(VoxelType type, std::span<const std::byte> bytes, Histogram& hist
   }
 }
 
-/// This rank's share of the volume's slices.
+}  // namespace
+
+std::size_t Histogram::binOf(double value) const {
+  const auto lastBin = static_cast<double>(counts.size() - 1);
+  return static_cast<std::size_t>(std::clamp((value - lowest) / binWidth, 0.0, lastBin));
+}
+
+std::int64_t Histogram::total() const {
+  return std::accumulate(counts.begin(), counts.end(), std::int64_t{0});
+}
+
+Histogram emptyHistogram(VoxelType type, double lowest, double highest) {
+  Histogram histogram;
+  histogram.lowest = lowest;
+  histogram.highest = highest;
+  const double range = highest - lowest;
+  if (type == VoxelType::kF32) {
+    const bool isConstant = !(range / kMostBins > 0);
+    histogram.binWidth = isConstant ? 1.0 : range / kMostBins;
+    histogram.counts.resize(isConstant ? 1 : kMostBins);
+  } else {
+    histogram.binWidth = std::max(1.0, std::ceil((range + 1) / kMostBins));
+    histogram.counts.resize(static_cast<std::size_t>(std::ceil((range + 1) / histogram.binWidth)));
+  }
+  return histogram;
+}
+
 IndexBox ownSlices(const Communicator& comm, const glm::ivec3& dims) {
   const auto boundary = [&](std::int64_t rank) {
     return static_cast<int>(dims.z * rank / comm.size());
   };
   const auto rank = static_cast<std::int64_t>(comm.rank());
   return {{0, 0, boundary(rank)}, {dims.x, dims.y, boundary(rank + 1)}};
-}
-
-}  // namespace
-
-std::int64_t Histogram::total() const {
-  return std::accumulate(counts.begin(), counts.end(), std::int64_t{0});
 }
 
 Histogram computeHistogram(const Communicator& comm, node::BrickSource& source,
@@ -80,12 +80,14 @@ Histogram computeHistogram(const Communicator& comm, node::BrickSource& source,
   return histogram;
 }
 
-double otsuThreshold(const Histogram& histogram) {
-  const auto& counts = histogram.counts;
-  const auto total = static_cast<double>(histogram.total());
+double otsuThreshold(const Histogram& histogram, std::size_t firstBin) {
+  const std::span counts = std::span{histogram.counts}.subspan(firstBin);
+  double total = 0;
   double weightedSum = 0;  // bin numbers do instead of values: the threshold is the same
-  for (std::size_t i = 0; i < counts.size(); ++i)
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    total += static_cast<double>(counts[i]);
     weightedSum += static_cast<double>(i) * static_cast<double>(counts[i]);
+  }
   double below = 0;
   double belowSum = 0;
   double best = -1;
@@ -102,7 +104,7 @@ double otsuThreshold(const Histogram& histogram) {
       bestBin = i;
     }
   }
-  return histogram.edge(bestBin);
+  return histogram.edge(firstBin + bestBin);
 }
 
 double quantileAbove(const Histogram& histogram, double from, double fraction) {

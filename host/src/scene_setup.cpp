@@ -6,7 +6,6 @@
 #include "burin/common/error.hpp"
 #include "burin/common/log.hpp"
 #include "burin/host/default_scene.hpp"
-#include "burin/host/histogram.hpp"
 #include "burin/host/shared_error.hpp"
 #include "burin/node/survey.hpp"
 
@@ -35,10 +34,14 @@ std::vector<std::string> overrides(const RenderOptions& options) {
   return all;
 }
 
-Scene parseTogether(const Communicator& comm, const std::string& text, const std::string& name,
-                    const RenderOptions& options) {
+/// Rank 0 alone reads what the scene names (styles); the others get the scene that came of it.
+Scene parseForAll(const Communicator& comm, const std::string& text, const std::string& name,
+                  const RenderOptions& options) {
   Scene scene;
-  together(comm, "the scene", [&] { scene = parseScene(text, name, overrides(options)); });
+  onRoot(comm, [&] { scene = parseScene(text, name, overrides(options)); });
+  const std::string whole =
+      broadcastText(comm, comm.isRoot() ? writeScene(scene) : std::string{}, Rank{0});
+  together(comm, "the scene", [&] { scene = parseScene(whole, name); });
   return scene;
 }
 
@@ -46,8 +49,7 @@ Scene readScene(const Communicator& comm, const RenderOptions& options) {
   const fs::path file = options.input;
   std::string text;
   onRoot(comm, [&] { text = readText(file); });
-  text = broadcastText(comm, std::move(text), Rank{0});
-  Scene scene = parseTogether(comm, text, file.string(), options);
+  Scene scene = parseForAll(comm, text, file.string(), options);
   if (!options.volume.empty()) {
     scene.volume = VolumeChoice{};
     scene.volume.file = options.volume;
@@ -64,11 +66,11 @@ Scene sceneFromVolume(const Communicator& comm, const RenderOptions& options,
                       const VolumeChoice& choice, node::BrickSource& source,
                       const VolumeFacts& facts) {
   const auto survey = node::surveyVolume(comm, source, {});
-  const Histogram histogram = computeHistogram(comm, source, survey);
-  const std::string text = writeScene(makeDefaultScene(choice, facts, histogram));
+  const MaterialProfile profile = profileMaterials(comm, source, survey);
+  const std::string text = writeScene(makeDefaultScene(choice, facts, profile, survey.blocks));
   RenderOptions withoutQuality = options;
   withoutQuality.settings.insert(withoutQuality.settings.begin(), "quality=null");
-  Scene scene = parseTogether(comm, text, "scene made for " + choice.file, withoutQuality);
+  Scene scene = parseForAll(comm, text, "scene made for " + choice.file, withoutQuality);
   scene.volume = choice;
   return scene;
 }

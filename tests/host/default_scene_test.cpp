@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
+#include "burin/common/named_style.hpp"
+
 namespace burin::host {
 namespace {
 
@@ -11,54 +15,79 @@ VolumeChoice choice() {
   return volume;
 }
 
-Scene sceneOf(const Histogram& histogram) {
+/// A profile with these counts and no gradients, and one block of all values.
+struct Known {
+  MaterialProfile profile;
+  node::BlockRanges blocks;
+};
+
+Known known(std::vector<std::int64_t> counts, double lowest = 0, double binWidth = 1) {
+  Known made;
+  made.profile.histogram.lowest = lowest;
+  made.profile.histogram.binWidth = binWidth;
+  made.profile.gradientSums.resize(counts.size());
+  made.profile.squareSums.resize(counts.size());
+  made.profile.magnitudeCounts.resize(1);
+  made.blocks.blocks = {1, 1, 1};
+  made.blocks.lowest = {static_cast<float>(lowest)};
+  made.blocks.highest = {
+      static_cast<float>(lowest + binWidth * static_cast<double>(counts.size()))};
+  made.profile.histogram.counts = std::move(counts);
+  return made;
+}
+
+Scene sceneOf(const Known& volume, const VolumeFacts& facts) {
+  return makeDefaultScene(choice(), facts, volume.profile, volume.blocks);
+}
+
+Scene sceneOf(const Known& volume) {
   VolumeFacts facts;
   facts.grid.dims = {64, 64, 64};
-  return makeDefaultScene(choice(), facts, histogram);
+  return sceneOf(volume, facts);
 }
 
 TEST(DefaultScene, IsAValidSceneThatComesBackFromItsText) {
-  Histogram histogram;
-  histogram.counts = {900, 950, 800, 0, 0, 0, 0, 40, 60, 30};
-  const Scene scene = sceneOf(histogram);
+  const Scene scene = sceneOf(known({900, 950, 800, 0, 0, 0, 0, 40, 60, 30}));
   EXPECT_EQ(parseScene(writeScene(scene), "text"), scene);
   ASSERT_EQ(scene.layers.size(), 1u);
-  EXPECT_NE(scene.layers[0].style("tone"), nullptr);
-  EXPECT_NE(scene.layers[0].style("edges"), nullptr);
+}
+
+TEST(DefaultScene, IsTheNamedStyleIllustration) {
+  const auto styles = findNamedStyles({std::filesystem::path{BURIN_STYLES_DIR}});
+  const auto found = std::find_if(styles.begin(), styles.end(),
+                                  [](const NamedStyle& s) { return s.name == "illustration"; });
+  ASSERT_NE(found, styles.end());
+  std::vector<StyleSettings> effects = sceneOf(known({900, 0, 100})).layers[0].styles;
+  std::erase_if(effects, [](const StyleSettings& s) { return s.name == "gradient"; });
+  EXPECT_EQ(effects, found->effects);
 }
 
 TEST(DefaultScene, HidesTheBackgroundAndShowsTheRest) {
-  Histogram histogram;  // background in bins 0 … 2, things in 7 … 9
-  histogram.counts = {900, 950, 800, 0, 0, 0, 0, 40, 60, 30};
-  const TransferFunction function = sceneOf(histogram).layers[0].transferFunction;
+  // Background in bins 0 … 2, things in 7 … 9.
+  const TransferFunction function =
+      sceneOf(known({900, 950, 800, 0, 0, 0, 0, 40, 60, 30})).layers[0].transferFunction;
   EXPECT_EQ(function.classify(2.9, 1).extinction, 0);
   EXPECT_GT(function.classify(7.0, 1).extinction, 0);
   EXPECT_GT(function.classify(9.5, 1).extinction, function.classify(7.0, 1).extinction);
 }
 
 TEST(DefaultScene, ConstantAndEmptyVolumesAreValidToo) {
-  Histogram one;
-  one.lowest = 5;
-  one.counts = {27};
-  EXPECT_NO_THROW(parseScene(writeScene(sceneOf(one)), "one value"));
-  Histogram none;
-  none.counts = {0};
-  EXPECT_NO_THROW(parseScene(writeScene(sceneOf(none)), "no value"));
-  Histogram tiny;  // a range of 1e-20
-  tiny.binWidth = 1e-23;
-  tiny.counts.assign(1000, 1);
-  EXPECT_NO_THROW(parseScene(writeScene(sceneOf(tiny)), "tiny values"));
+  const auto parse = [](const Known& volume) {
+    return parseScene(writeScene(sceneOf(volume)), "text");
+  };
+  EXPECT_NO_THROW(parse(known({27}, 5)));
+  EXPECT_NO_THROW(parse(known({0})));
+  EXPECT_NO_THROW(parse(known(std::vector<std::int64_t>(1000, 1), 0, 1e-23)));
 }
 
 TEST(DefaultScene, LookDoesNotDependOnResolution) {
-  Histogram histogram;
-  histogram.counts = {900, 0, 100};
+  const Known volume = known({900, 0, 100});
   VolumeFacts coarse, fine;
   coarse.grid.dims = {65, 65, 65};
   coarse.grid.spacing = {2, 2, 2};
   fine.grid.dims = {129, 129, 129};
-  const Scene a = makeDefaultScene(choice(), coarse, histogram);
-  const Scene b = makeDefaultScene(choice(), fine, histogram);
+  const Scene a = sceneOf(volume, coarse);
+  const Scene b = sceneOf(volume, fine);
   EXPECT_EQ(a.layers[0].transferFunction, b.layers[0].transferFunction);
 }
 

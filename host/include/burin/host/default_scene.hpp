@@ -1,15 +1,17 @@
 #pragma once
 
 #include "burin/common/scene.hpp"
-#include "burin/host/histogram.hpp"
+#include "burin/host/material_profile.hpp"
+#include "burin/node/survey.hpp"
 
 namespace burin::host {
 
-/// A scene for a volume that comes without one: a single layer whose opacity rises from Otsu's
-/// threshold of the histogram to the 99th percentile of what lies above it, drawn with light, tone
-/// and edges. The opacity unit length follows the volume's size, so that a coarse and a fine scan
-/// of one thing look alike. `scene.volume` is `choice`.
+/// A scene for a volume that comes without one. What is darker than the background's boundary is
+/// left out. If a denser material lies within another one, that one is a translucent skin around
+/// it; else opacity rises over all that is there. The opacity unit length follows the volume's
+/// size, so that a coarse and a fine scan of one thing look alike. `scene.volume` is `choice`;
+/// `profile` and `blocks` are of that volume.
 Scene makeDefaultScene(const VolumeChoice& choice, const VolumeFacts& facts,
-                       const Histogram& histogram);
+                       const MaterialProfile& profile, const node::BlockRanges& blocks);
 
 }  // namespace burin::host

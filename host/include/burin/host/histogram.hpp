@@ -19,11 +19,19 @@ struct Histogram {
   std::vector<std::int64_t> counts;
 
   double edge(std::size_t bin) const { return lowest + binWidth * static_cast<double>(bin); }
+  /// The bin of a finite value; those beyond the ends count in the end bins.
+  std::size_t binOf(double value) const;
   std::int64_t total() const;
 };
 
 /// At most this many bins.
 inline constexpr int kMostBins = 1024;
+
+/// Bins for values of that type from `lowest` to `highest`, all counts 0.
+Histogram emptyHistogram(node::VoxelType type, double lowest, double highest);
+
+/// The z slices that this rank counts, whole in x and y; may be empty.
+IndexBox ownSlices(const Communicator& comm, const glm::ivec3& dims);
 
 /// Collective. One pass over all voxels, split among the ranks; the same on all ranks and for any
 /// number of them. `survey` is of the same volume. Throws CollectiveError if reading fails.
@@ -31,9 +39,9 @@ Histogram computeHistogram(const Communicator& comm, node::BrickSource& source,
                            const node::VolumeSurvey& survey);
 
 /// The value that best parts the histogram in two classes: largest variance between them. The lower
-/// edge of the upper class; the histogram's middle if all values lie in one bin.
-/// Otsu, "A threshold selection method from gray-level histograms", IEEE SMC 1979.
-double otsuThreshold(const Histogram& histogram);
+/// edge of the upper class; the middle if all values lie in one bin. Bins below `firstBin` do not
+/// count. Otsu, "A threshold selection method from gray-level histograms", IEEE SMC 1979.
+double otsuThreshold(const Histogram& histogram, std::size_t firstBin = 0);
 
 /// Upper edge of the bin up to which `fraction` of all values >= `from` lie.
 double quantileAbove(const Histogram& histogram, double from, double fraction);

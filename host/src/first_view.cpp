@@ -1,0 +1,163 @@
+#include "first_view.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace burin::host {
+
+namespace {
+
+/// How much of the volume's blocks can show.
+class VisibleMass {
+ public:
+  VisibleMass(const Scene& scene, const VolumeFacts& facts, const node::BlockRanges& blocks)
+      : blocks_{blocks}, cells_{facts.grid.cells()} {
+    mass_.reserve(blocks.lowest.size());
+    for (std::size_t i = 0; i < blocks.lowest.size(); ++i) {
+      double extinction = 0;
+      for (const Layer& layer : scene.layers) {
+        const TransferFunction& function = layer.transferFunction;
+        extinction +=
+            function.largestExtinction(double{blocks.lowest[i]}, double{blocks.highest[i]},
+                                       function.opacityUnitLength.value_or(1));
+      }
+      mass_.push_back(extinction > 0 ? 1 : 0);
+    }
+  }
+
+  double at(const glm::ivec3& block) const { return mass_[blocks_.index(block)]; }
+
+  /// How many blocks show at the lower and at the upper end of what shows along an axis.
+  glm::dvec2 atEnds(int axis) const {
+    constexpr double kEnd = 0.08;  // of its length
+    const IndexBox shown = bounds();
+    const double end = kEnd * shown.size()[axis];
+    glm::dvec2 count{0};
+    forBlocks([&](const glm::ivec3& block) {
+      const int from = block[axis] * blocks_.blockCells;
+      const int to = from + blocks_.blockCells;
+      if (from <= shown.lo[axis] + end) count[0] += at(block);
+      if (to >= shown.hi[axis] - end) count[1] += at(block);
+    });
+    return count;
+  }
+
+  /// The smallest box of cells around every block that can show; the whole volume if none can.
+  IndexBox bounds() const {
+    IndexBox box{cells_, glm::ivec3{0}};
+    forBlocks([&](const glm::ivec3& block) {
+      if (!(at(block) > 0)) return;
+      box.lo = glm::min(box.lo, block * blocks_.blockCells);
+      box.hi = glm::max(box.hi, glm::min((block + 1) * blocks_.blockCells, cells_));
+    });
+    return box.empty() ? IndexBox{glm::ivec3{0}, cells_} : box;
+  }
+
+  /// Correlation of the mass with its mirror image across the plane through its centre that is
+  /// normal to `axis`; 1 is symmetric.
+  double symmetry(int axis) const {
+    double sum = 0, moment = 0, squares = 0, products = 0;
+    forBlocks([&](const glm::ivec3& block) {
+      sum += at(block);
+      moment += at(block) * block[axis];
+      squares += at(block) * at(block);
+    });
+    if (!(squares > 0)) return 0;
+    const auto ends = static_cast<int>(std::lround(2 * moment / sum));  // block + its mirror image
+    forBlocks([&](glm::ivec3 block) {
+      const double mass = at(block);
+      block[axis] = ends - block[axis];
+      if (block[axis] >= 0 && block[axis] < blocks_.blocks[axis]) products += mass * at(block);
+    });
+    return products / squares;
+  }
+
+ private:
+  template <typename Visit>
+  void forBlocks(Visit&& visit) const {
+    for (int z = 0; z < blocks_.blocks.z; ++z)
+      for (int y = 0; y < blocks_.blocks.y; ++y)
+        for (int x = 0; x < blocks_.blocks.x; ++x) visit(glm::ivec3{x, y, z});
+  }
+
+  const node::BlockRanges& blocks_;
+  glm::ivec3 cells_;
+  std::vector<double> mass_;
+};
+
+bool isUpsideDown(const VisibleMass& mass, int upAxis, int cells) {
+  constexpr double kMore = 1.25;
+  const glm::dvec2 ends = mass.atEnds(upAxis);
+  return mass.bounds().hi[upAxis] == cells && ends[1] > kMore * ends[0];
+}
+
+/// The same view of what is upside down: beyond the pole, from where the up axis points down.
+void turnOver(CameraChoice& camera) {
+  camera.azimuthDeg += 180;
+  camera.elevationDeg = camera.elevationDeg - 180;
+}
+
+bool isSliced(const glm::dvec3& spacing) {
+  constexpr double kDifferent = 1.01;
+  const double smallest = std::min({spacing.x, spacing.y, spacing.z});
+  return std::max({spacing.x, spacing.y, spacing.z}) > kDifferent * smallest;
+}
+
+bool isLeftRightSymmetric(const VisibleMass& mass) {
+  constexpr double kSymmetric = 0.93;
+  constexpr double kMore = 0.03;
+  const double leftRight = mass.symmetry(0);
+  return leftRight > kSymmetric && leftRight > std::max(mass.symmetry(1), mass.symmetry(2)) + kMore;
+}
+
+bool isFlat(const glm::dvec3& extent) {
+  constexpr double kFlat = 0.4;
+  return extent.z < kFlat * std::min(extent.x, extent.y);
+}
+
+/// The magnification at which the box of cells just fits the picture.
+double zoomToFit(const Scene& scene, const VolumeFacts& facts, const IndexBox& cells) {
+  constexpr double kFilled = 0.94;  // of the picture's half sides
+  constexpr double kLargest = 20;
+  const Camera camera = resolveCamera(scene, facts);
+  const Box box = facts.grid.cellBoxIndex(cells);
+  double farthest = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::bvec3 upper{(corner & 1) != 0, (corner & 2) != 0, (corner & 4) != 0};
+    const glm::dvec3 offset =
+        facts.grid.worldFromIndex(glm::mix(box.lo, box.hi, upper)) - camera.eyeWorld;
+    const double depth =
+        camera.projection == Projection::kPerspective ? glm::dot(offset, camera.forward) : 1;
+    const double x = glm::dot(offset, camera.right) / depth / camera.image.width;
+    const double y = glm::dot(offset, camera.up) / depth / camera.image.height;
+    farthest = std::max({farthest, std::abs(x), std::abs(y)});
+  }
+  const double fitting = kFilled * camera.pixelSize / 2 / farthest;
+  return std::clamp(std::floor(20 * fitting) / 20, 0.5, kLargest);  // a number that people can read
+}
+
+}  // namespace
+
+CameraChoice firstView(const Scene& scene, const VolumeFacts& facts,
+                       const node::BlockRanges& blocks) {
+  constexpr double kElongated = 1.5;
+  const VisibleMass mass{scene, facts, blocks};
+  const IndexBox shown = mass.bounds();
+  const glm::dvec3 extent = glm::dvec3{shown.size()} * facts.grid.spacing;
+  Scene viewed = scene;
+  CameraChoice& camera = viewed.camera;
+  const bool isFlatBox = isFlat(glm::dvec3{facts.grid.cells()} * facts.grid.spacing);
+  const bool isUpZ =
+      facts.anatomical || isFlatBox || isSliced(facts.grid.spacing) || isLeftRightSymmetric(mass);
+  camera.upAxis = isUpZ ? "z" : "y";
+  const int up = isUpZ ? 2 : 1;
+  if (isFlatBox) camera.elevationDeg = 40;
+  const double depth = isUpZ ? extent.y : extent.z;
+  if (depth > kElongated * extent.x) camera.azimuthDeg = 60;
+  if (!facts.anatomical && isUpsideDown(mass, up, facts.grid.cells()[up])) turnOver(camera);
+  camera.zoom = zoomToFit(viewed, facts, shown);
+  return camera;
+}
+
+}  // namespace burin::host
