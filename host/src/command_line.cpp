@@ -26,7 +26,9 @@ constexpr CommandEntry kCommands[] = {
     {"render", "Draw a scene or a volume", describeRender},
     {"info", "Describe a volume", describeInfo},
     {"make-volume", "Write a procedural volume", describeMakeVolume},
-    {"styles", "List the styles and their parameters", describeStyles}};
+    {"styles", "List the styles and their parameters", describeStyles},
+    {"gallery", "Draw a scene in every named style, on one sheet", describeGallery},
+    {"colormap", "Convert colour maps of other programs", describeColormap}};
 
 constexpr CommandEntry kBenchmarks[] = {
     {"compositing", "Merging subimages, against IceT", describeBenchCompositing},

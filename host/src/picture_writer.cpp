@@ -1,5 +1,3 @@
-#include <dlfcn.h>
-
 #include <span>
 
 #include "burin/common/error.hpp"
@@ -7,6 +5,7 @@
 #include "burin/host/command_line.hpp"
 #include "burin/host/picture.hpp"
 #include "picture_encoder.hpp"
+#include "picture_module.hpp"
 
 namespace burin::host {
 
@@ -14,26 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Beside the program, in the build tree as where it is installed.
-fs::path moduleFile() {
-  std::error_code none;
-  const fs::path program = fs::read_symlink("/proc/self/exe", none);
-  return (program.parent_path() / BURIN_PICTURES_MODULE).lexically_normal();
-}
-
-/// A function of the module, which is never closed: OpenImageIO has threads of its own.
-template <typename Function>
-Function* functionOfModule(const char* name) {
-  // Lazy, as programs are linked: binding every function of every library would take seconds.
-  static void* const library = dlopen(moduleFile().c_str(), RTLD_LAZY | RTLD_LOCAL);
-  void* const function = library == nullptr ? nullptr : dlsym(library, name);
-  // NOLINTNEXTLINE(concurrency-mt-unsafe): one thread
-  if (function == nullptr) fail(ExitCode::kRank, "no pictures can be written: {}", dlerror());
-  return reinterpret_cast<Function*>(function);
-}
-
 EncodePicture& encoder() {
-  static EncodePicture* const function = functionOfModule<EncodePicture>(kEncodePicture);
+  static auto* const function = reinterpret_cast<EncodePicture*>(pictureFunction(kEncodePicture));
   return *function;
 }
 
@@ -67,7 +48,7 @@ void loadPictureEncoder() {
 }
 
 std::string pictureLibraryVersion() {
-  return functionOfModule<PictureLibrary>(kPictureLibrary)();
+  return reinterpret_cast<PictureLibrary*>(pictureFunction(kPictureLibrary))();
 }
 
 void writePng(const fs::path& target, const DisplayPicture& picture,

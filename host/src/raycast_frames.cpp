@@ -21,6 +21,12 @@ class RaycastFrames : public FrameMaker {
         worker_{comm, withTermination(prepared.scene), *prepared.source, options},
         merge_{merge} {}
 
+  void update(const Scene& scene) override {
+    worker_.update(withTermination(scene));
+    maxError_ = scene.quality.maxError;
+    isAdaptive_ = scene.quality.preintegrated;
+  }
+
   ImageView<const Rgba> make(const Camera& camera, RankStatistics& statistics) override {
     if (!maxError_ || isAdaptive_) return draw(camera, statistics, nullptr);
     node::StepMap steps;

@@ -43,18 +43,23 @@ class ReferenceFrames : public FrameMaker {
       : comm_{comm},
         dedicatedHost_{dedicatedHost},
         threads_{node::threadShare(comm, !(dedicatedHost && comm.isRoot()))},
-        report_{std::move(report)} {
+        report_{std::move(report)},
+        source_{*prepared.source} {
+    update(prepared.scene);
+  }
+
+  void update(const Scene& scene) final {
     // The survey's percentile, as the renderer uses it: the two are made to be compared.
     node::ReferenceScales scales;
-    const node::SurveyRequest request{gradientOperatorsNeeded(prepared.scene),
-                                      laplacianNeeded(prepared.scene)};
+    const node::SurveyRequest request{gradientOperatorsNeeded(scene),
+                                      laplacianNeeded(scene)};
     if (!request.gradients.empty() || request.laplacian)
       scales =
-          node::surveyedScales(node::surveyVolume(comm, *prepared.source, request), prepared.scene);
-    checkMemory(comm, {static_cast<std::int64_t>(prepared.source->info().bytes()),
+          node::surveyedScales(node::surveyVolume(comm_, source_, request), scene);
+    checkMemory(comm_, {static_cast<std::int64_t>(source_.info().bytes()),
                        "the volume, whole on every rank for --reference,"});
-    collectively(comm, "loading the volume",
-                 [&] { renderer_.emplace(prepared.scene, *prepared.source, scales); });
+    collectively(comm_, "loading the volume",
+                 [&] { renderer_.emplace(scene, source_, scales); });
   }
 
   ImageView<const Rgba> make(const Camera& camera, RankStatistics& statistics) override {
@@ -129,6 +134,7 @@ class ReferenceFrames : public FrameMaker {
   bool dedicatedHost_;
   int threads_;
   ReportProgress report_;
+  node::BrickSource& source_;
   std::optional<node::ReferenceRenderer> renderer_;
   Image<Rgba> frame_;
 };

@@ -20,8 +20,6 @@ struct FrameReport {
   std::int64_t signal = 0;
 };
 
-constexpr int kSignalExitBase = 128;  // what shells call a command that a signal ended
-
 /// What a picture takes at least, all of it on rank 0: the frame as merged, as drawn there by
 /// OpenGL or in double, and as 8 bits or encoded floats. What other ranks draw depends on the view.
 MemoryNeed pictureNeed(const Communicator& comm, ImageSize size) {

@@ -16,6 +16,8 @@ Finish describeRender(OptionList& list);
 Finish describeInfo(OptionList& list);
 Finish describeMakeVolume(OptionList& list);
 Finish describeStyles(OptionList& list);
+Finish describeGallery(OptionList& list);
+Finish describeColormap(OptionList& list);
 Finish describeBenchCompositing(OptionList& list);
 Finish describeBenchAccuracy(OptionList& list);
 Finish describeBenchMaxError(OptionList& list);

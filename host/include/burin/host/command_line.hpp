@@ -125,6 +125,22 @@ struct BenchRatesOptions {
   int repeats = 5;
 };
 
+/// burin gallery
+struct GalleryOptions {
+  RenderOptions render;             ///< of every panel: `size` is a panel's, `output` the sheet
+  std::vector<std::string> styles;  ///< named ones; none: all of them
+  int columns = 0;                  ///< 0: about as many as rows
+};
+
+/// burin colormap
+struct ColormapOptions {
+  std::string input;  ///< a colour map of another program, or a scene
+  std::filesystem::path output;
+  std::string map;          ///< which of the file's maps; "" the first
+  int layer = 0;            ///< of the scene
+  bool toParaview = false;  ///< a scene's layer to ParaView's JSON; else a colour map to a scene
+};
+
 /// burin styles
 struct StylesOptions {};
 
@@ -133,9 +149,10 @@ struct Answer {
   std::string text;
 };
 
-using Command = std::variant<RenderOptions, InfoOptions, MakeVolumeOptions, StylesOptions,
-                             BenchCompositingOptions, BenchSkipOptions, BenchAccuracyOptions,
-                             BenchMaxErrorOptions, BenchScalingOptions, BenchRatesOptions, Answer>;
+using Command =
+    std::variant<RenderOptions, InfoOptions, MakeVolumeOptions, StylesOptions, GalleryOptions,
+                 ColormapOptions, BenchCompositingOptions, BenchSkipOptions, BenchAccuracyOptions,
+                 BenchMaxErrorOptions, BenchScalingOptions, BenchRatesOptions, Answer>;
 
 /// Reads the arguments (without the program's name). Depends on nothing else, so that all ranks
 /// come to the same result. `ranks`: how many take part. Throws Error{kUsage}, one line.

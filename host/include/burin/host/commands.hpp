@@ -11,6 +11,8 @@ int runCommand(const Communicator& comm, const RenderOptions& options);
 int runCommand(const Communicator& comm, const InfoOptions& options);
 int runCommand(const Communicator& comm, const MakeVolumeOptions& options);
 int runCommand(const Communicator& comm, const StylesOptions& options);
+int runCommand(const Communicator& comm, const GalleryOptions& options);
+int runCommand(const Communicator& comm, const ColormapOptions& options);
 int runCommand(const Communicator& comm, const BenchCompositingOptions& options);
 int runCommand(const Communicator& comm, const BenchSkipOptions& options);
 int runCommand(const Communicator& comm, const BenchAccuracyOptions& options);

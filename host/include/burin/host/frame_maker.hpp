@@ -20,6 +20,10 @@ class FrameMaker {
  public:
   virtual ~FrameMaker() = default;
 
+  /// Collective. Draws this scene from now on, doing what the change needs. `scene`: resolved, of
+  /// the same volume. Throws CollectiveError as node::Worker::update does.
+  virtual void update(const Scene& scene) = 0;
+
   /// Collective. The whole frame on rank 0, valid until the next call, no pixels elsewhere. Adds to
   /// the statistics' draw, composite and gather phases. Throws CollectiveError if a rank failed.
   virtual ImageView<const Rgba> make(const Camera& camera, RankStatistics& statistics) = 0;

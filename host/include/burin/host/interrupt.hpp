@@ -24,6 +24,9 @@ class InterruptWatch {
 /// The signal that came, or 0. A rank's own: what all ranks do about it is agreed at frame ends.
 int interruptSignal();
 
+/// Exit code of a command that a signal ended, less the signal's number, as shells have it.
+inline constexpr int kSignalExitBase = 128;
+
 /// Local. Runs `work`, which holds a temporary file for a moment; a signal that comes meanwhile
 /// ends the process afterwards.
 template <std::invocable Work>

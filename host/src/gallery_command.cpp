@@ -1,0 +1,150 @@
+#include <algorithm>
+#include <optional>
+
+#include "burin/common/error.hpp"
+#include "burin/common/log.hpp"
+#include "burin/common/named_style.hpp"
+#include "burin/common/nearest_name.hpp"
+#include "burin/common/temporary_file.hpp"
+#include "burin/host/commands.hpp"
+#include "burin/host/display.hpp"
+#include "burin/host/frame_maker.hpp"
+#include "burin/host/interrupt.hpp"
+#include "burin/host/progress.hpp"
+#include "burin/host/scene_setup.hpp"
+#include "burin/host/shared_error.hpp"
+#include "contact_sheet.hpp"
+
+namespace burin::host {
+
+namespace {
+
+/// The named styles that are asked for, in that order; all of them if none is.
+std::vector<NamedStyle> chosenStyles(const std::vector<std::string>& names) {
+  const std::vector<NamedStyle> known = findNamedStyles(styleFolders());
+  if (known.empty()) fail(ExitCode::kUsage, "no folder of styles is found (BURIN_STYLES)");
+  if (names.empty()) return known;
+  std::vector<NamedStyle> chosen;
+  for (const std::string& name : names) {
+    const auto found = std::ranges::find(known, name, &NamedStyle::name);
+    if (found == known.end()) {
+      std::vector<std::string_view> knownNames;
+      for (const NamedStyle& style : known) knownNames.push_back(style.name);
+      fail(ExitCode::kUsage, "--styles: '{}' is unknown; {}", name,
+           nameSuggestion(name, knownNames));
+    }
+    chosen.push_back(*found);
+  }
+  return chosen;
+}
+
+/// The scene with a style on every layer. How gradients are made stays the layer's own business
+/// unless the style says it.
+Scene inStyle(Scene scene, const NamedStyle& style) {
+  constexpr std::string_view kGradient = "gradient";
+  for (Layer& layer : scene.layers) {
+    const StyleSettings* own = layer.style(kGradient);
+    const bool isSaid =
+        std::ranges::find(style.effects, kGradient, &StyleSettings::name) != style.effects.end();
+    std::vector<StyleSettings> effects = style.effects;
+    if (own != nullptr && !isSaid) effects.insert(effects.begin(), *own);
+    layer.styles = std::move(effects);
+  }
+  return scene;
+}
+
+/// The loop over the styles, on all ranks; rank 0 has the sheet besides.
+class Gallery {
+ public:
+  Gallery(const Communicator& comm, const GalleryOptions& options)
+      : comm_{comm}, options_{options}, progress_{comm.isRoot() && !options.render.quiet} {
+    onRoot(comm_, [&] { deferInterrupts([&] { checkOutputs(options_.render); }); });
+    std::int64_t count = 0;
+    onRoot(comm_, [&] {
+      styles_ = chosenStyles(options_.styles);
+      count = static_cast<std::int64_t>(styles_.size());
+    });
+    allReduce(comm_, std::span{&count, 1}, MPI_MAX);
+    count_ = static_cast<int>(count);
+    progress_.show("reading the volume");
+    prepared_ = prepareScene(comm_, options_.render);
+    onRoot(comm_, [&] { checkConflicts(options_.render, prepared_.scene.volume.file); });
+    onRoot(comm_, [&] {
+      sheet_.emplace(prepared_.scene.imageSize, count_,
+                     options_.columns > 0 ? options_.columns : squareColumns(count_));
+    });
+  }
+
+  int run() {
+    const InterruptWatch watch;
+    for (int i = 0; i < count_; ++i) {
+      progress_.show(fmt::format("style {} of {}", i + 1, count_));
+      if (const int signal = drawPanel(i); signal != 0) {
+        progress_.clear();
+        if (comm_.isRoot()) note("stopped by signal {}", signal);
+        return kSignalExitBase + signal;
+      }
+    }
+    progress_.clear();
+    onRoot(comm_, [&] { write(); });
+    return static_cast<int>(ExitCode::kDone);
+  }
+
+ private:
+  /// The signal that some rank got, or 0.
+  int drawPanel(int index) {
+    Scene scene = prepared_.scene;
+    onRoot(comm_, [&] { scene = inStyle(scene, styles_[static_cast<std::size_t>(index)]); });
+    const std::string text =
+        broadcastText(comm_, comm_.isRoot() ? writeScene(scene) : std::string{}, Rank{0});
+    together(comm_, "the style", [&] { scene = parseScene(text, "gallery"); });
+    show(scene);
+    RankStatistics statistics{};
+    const ImageView<const Rgba> frame =
+        frames_->make(resolveCamera(scene, prepared_.facts), statistics);
+    onRoot(comm_, [&] {
+      const Colour background = scene.background.value_or(Colour{255, 255, 255});
+      sheet_->place(index, toDisplay(frame, background),
+                    styles_[static_cast<std::size_t>(index)].name);
+    });
+    std::int64_t signal = interruptSignal();
+    allReduce(comm_, std::span{&signal, 1}, MPI_MAX);
+    return static_cast<int>(signal);
+  }
+
+  /// The volume is loaded for the first style; the others change what they must.
+  void show(const Scene& scene) {
+    if (frames_) return frames_->update(scene);
+    prepared_.scene = scene;
+    frames_ = makeRaycastFrames(comm_, prepared_, options_.render.worker, options_.render.merge);
+  }
+
+  void write() const {
+    const std::filesystem::path& target = options_.render.output;
+    const Quality& quality = prepared_.scene.quality;
+    writePng(target, sheet_->picture(),
+             {sceneTextFor(prepared_.scene, target),
+              quality.maxError ? std::nullopt : std::optional{quality.stepVoxels}, 0});
+    note("{}: {} styles, {} x {}", target.string(), count_, sheet_->picture().size.width,
+         sheet_->picture().size.height);
+  }
+
+  const Communicator& comm_;
+  const GalleryOptions& options_;
+  Progress progress_;
+  int count_ = 0;
+  std::vector<NamedStyle> styles_;  ///< on rank 0
+  PreparedScene prepared_;
+  std::unique_ptr<FrameMaker> frames_;
+  std::optional<ContactSheet> sheet_;  ///< on rank 0
+};
+
+}  // namespace
+
+int runCommand(const Communicator& comm, const GalleryOptions& options) {
+  setQuiet(options.render.quiet);
+  Gallery gallery{comm, options};
+  return gallery.run();
+}
+
+}  // namespace burin::host

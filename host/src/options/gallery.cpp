@@ -1,0 +1,75 @@
+#include <memory>
+#include <sstream>
+
+#include "burin/common/error.hpp"
+#include "options/describe.hpp"
+#include "options/volume_input.hpp"
+
+namespace burin::host {
+
+namespace {
+
+constexpr ImageSize kPanel{256, 256};
+constexpr int kMostColumns = 100;
+
+constexpr const char* kGalleryFooter =
+    R"(Every named style (burin styles) on every layer of the scene, with its name below, to choose by
+looking. Then:
+  burin render INPUT --set layers.0.style=NAME -o picture.png)";
+
+struct Gallery {
+  GalleryOptions options;
+  RawText raw;
+  std::string size;
+  std::string styles;
+};
+
+/// The names between commas.
+std::vector<std::string> names(const std::string& list) {
+  std::vector<std::string> found;
+  std::istringstream in{list};
+  for (std::string name; std::getline(in, name, ',');) found.push_back(name);
+  return found;
+}
+
+GalleryOptions finished(const Gallery& gallery, int ranks) {
+  GalleryOptions options = gallery.options;
+  RenderOptions& render = options.render;
+  if (render.input.empty() && render.volume.empty())
+    fail(ExitCode::kUsage, "gallery: expected a SCENE or a VOLUME");
+  checkVolumeChoice(render.input, render.volume);
+  if (render.worker.dedicatedHost && ranks == 1)
+    fail(ExitCode::kUsage, "--dedicated-host needs two ranks or more, this run has one");
+  if (render.output.extension() != ".png")
+    fail(ExitCode::kUsage, "-o {}: expected a name that ends in .png", render.output.string());
+  render.size = gallery.size.empty() ? kPanel : parseSize(gallery.size);
+  render.raw = rawLayout(gallery.raw);
+  options.styles = names(gallery.styles);
+  return options;
+}
+
+}  // namespace
+
+Finish describeGallery(OptionList& list) {
+  const auto gallery = std::make_shared<Gallery>();
+  RenderOptions& render = gallery->options.render;
+  addInput(list, render.input);
+  list.path("-o,--output", render.output, "FILE.png", "The sheet").required();
+  addVolume(list, render.volume);
+  list.text("--styles", gallery->styles, "NAME,NAME,…", "Only these, in this order (all)");
+  list.integer("--columns", gallery->options.columns, 1, kMostColumns,
+               "Panels in a row (about as many as rows)");
+  list.text("--size", gallery->size, "WxH", "Size of a panel (256x256)");
+  list.texts("--set", render.settings, "PATH=VALUE",
+             "Change one key of the scene; may be repeated");
+  addRawOptions(list, gallery->raw);
+  list.integer("--bricks", render.worker.bricks, 1, 1 << 20,
+               "Bricks in all; one per drawing rank otherwise");
+  list.flag("--dedicated-host", render.worker.dedicatedHost,
+            "Rank 0 only collects and writes; needs two ranks or more");
+  list.flag("--quiet", render.quiet, "Say nothing but warnings and errors");
+  list.footer(kGalleryFooter);
+  return [gallery](int ranks) { return finished(*gallery, ranks); };
+}
+
+}  // namespace burin::host

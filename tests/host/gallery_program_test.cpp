@@ -1,0 +1,153 @@
+#include <OpenImageIO/imageio.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+
+#include "host/program.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace burin {
+namespace {
+
+using test::onlyLine;
+using test::runBurin;
+using test::TemporaryFolder;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+constexpr const char* kScene = R"({
+  "schema_version": 1,
+  "volume": {"procedural": "shells", "dims": [24, 24, 24], "type": "f32"},
+  "image": {"size": [400, 300], "background": "#d0e0f0"},
+  "layers": [{
+    "transfer_function": {
+      "points": [{"value": 0.3, "color": "#a06040", "opacity": 0},
+                 {"value": 0.7, "color": "#fff0e0", "opacity": 0.3}],
+      "opacity_unit_length": 1}}]})";
+
+struct ReadPicture {
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint8_t> bytes;  // 3 channels
+
+  std::uint8_t at(int x, int y, int channel) const {
+    return bytes[static_cast<std::size_t>(3 * (y * width + x) + channel)];
+  }
+};
+
+ReadPicture readPicture(const std::string& file) {
+  const auto in = OIIO::ImageInput::open(file);
+  if (!in) throw std::runtime_error{file + ": " + OIIO::geterror()};  // fails the test
+  ReadPicture picture{in->spec().width, in->spec().height, {}};
+  EXPECT_EQ(in->spec().nchannels, 3);
+  picture.bytes.resize(in->spec().image_pixels() * 3);
+  EXPECT_TRUE(in->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, picture.bytes.data()));
+  return picture;
+}
+
+class Gallery : public ::testing::Test {
+ protected:
+  Gallery() { std::ofstream{path("s.json")} << kScene; }
+
+  std::string path(const char* name) const { return folder_ / name; }
+
+  void run(const std::vector<std::string>& arguments, int ranks = 0) {
+    const auto result = runBurin(arguments, ranks);
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_THAT(result.out, IsEmpty());
+  }
+
+  const TemporaryFolder folder_;
+};
+
+constexpr int kGap = 4;
+constexpr int kSide = 48;
+
+TEST_F(Gallery, PanelsAreWhatRenderDraws) {
+  const std::vector<std::string> styles{"plain", "technical", "pen-lines"};
+  run({"gallery", path("s.json"), "-o", path("sheet.png"), "--styles", "plain,technical,pen-lines",
+       "--columns", "2", "--size", "48x48", "--quiet"},
+      3);
+  const ReadPicture sheet = readPicture(path("sheet.png"));
+  EXPECT_EQ(sheet.width, kGap + 2 * (kSide + kGap));
+  const int rowHeight = (sheet.height - kGap) / 2;
+  EXPECT_GT(rowHeight, kSide + kGap);
+  for (int i = 0; i < 3; ++i) {
+    const std::string& style = styles[static_cast<std::size_t>(i)];
+    SCOPED_TRACE(style);
+    run({"render", path("s.json"), "-o", path("one.png"), "--size", "48x48", "--set",
+         "layers.0.style=" + style, "--quiet"});
+    const ReadPicture one = readPicture(path("one.png"));
+    int worst = 0;
+    for (int y = 0; y < kSide; ++y)
+      for (int x = 0; x < kSide; ++x)
+        for (int c = 0; c < 3; ++c)
+          worst = std::max(worst,
+                           std::abs(one.at(x, y, c) - sheet.at(kGap + i % 2 * (kSide + kGap) + x,
+                                                               kGap + i / 2 * rowHeight + y, c)));
+    // Other ranks and brick parts: floats differ by up to 5e-5, which may cross a threshold of 8
+    // bits; in the dark a code of sRGB is 3e-4 of linear light.
+    EXPECT_LE(worst, 1);
+    const int top = kGap + i / 2 * rowHeight + kSide;
+    int darkest = 255;
+    for (int y = top; y < top + rowHeight - kSide - kGap; ++y)
+      for (int x = 0; x < kSide; ++x)
+        darkest = std::min<int>(darkest, sheet.at(kGap + i % 2 * (kSide + kGap) + x, y, 0));
+    EXPECT_LT(darkest, 128) << "no label";
+  }
+}
+
+TEST_F(Gallery, AVolumeAloneDrawsEveryStyle) {
+  run({"make-volume", "shells", "--dims", "12,12,12", "-o", path("v.nrrd")});
+  run({"gallery", path("v.nrrd"), "-o", path("sheet.png"), "--size", "16x16", "--quiet"});
+  const ReadPicture sheet = readPicture(path("sheet.png"));
+  EXPECT_GE((sheet.width - kGap) / (16 + kGap), 4);  // 12 styles or more
+}
+
+TEST_F(Gallery, MistakesAreOneLineAndLeaveNothing) {
+  const auto refused = [&](const std::vector<std::string>& more, int ranks = 0) {
+    std::vector<std::string> all{"gallery", path("s.json"), "-o", path("sheet.png")};
+    all.insert(all.end(), more.begin(), more.end());
+    const auto result = runBurin(all, ranks);
+    EXPECT_EQ(result.exitCode, 2);
+    return onlyLine(result.err);
+  };
+  EXPECT_THAT(refused({"--styles", "techincal"}, 2), HasSubstr("did you mean 'technical'?"));
+  EXPECT_THAT(refused({"--size", "9000x9000"}), HasSubstr("expected at most"));
+  const auto exr = runBurin({"gallery", path("s.json"), "-o", path("sheet.exr")});
+  EXPECT_EQ(exr.exitCode, 2);
+  EXPECT_THAT(onlyLine(exr.err), HasSubstr("ends in .png"));
+  EXPECT_FALSE(std::filesystem::exists(path("sheet.png")));
+}
+
+TEST_F(Gallery, NamedStylesAreListed) {
+  const auto result = runBurin({"styles"}, 2);
+  EXPECT_EQ(result.exitCode, 0);
+  EXPECT_THAT(result.out, HasSubstr("  technical "));
+  EXPECT_THAT(result.out, HasSubstr("  pen-lines "));
+}
+
+TEST_F(Gallery, ColourMapsAreConvertedBothWays) {
+  std::ofstream{path("cool.json")} << R"([{ "ColorSpace": "Diverging", "Name": "cool",
+    "RGBPoints": [0, 0.2314, 0.298, 0.7529, 1, 0.7059, 0.0157, 0.149] }])";
+  run({"colormap", path("cool.json"), "-o", path("look.json")}, 2);
+  run({"colormap", "--paraview", path("look.json"), "-o", path("back.json")});
+  run({"colormap", path("back.json"), "-o", path("again.json")});
+  run({"render", path("s.json"), "-o", path("one.png"), "--size", "16x16", "--quiet", "--set",
+       "layers.0.transfer_function={\"file\":\"back.json\",\"range\":[0.3,0.7]}"});
+  const auto over = runBurin({"colormap", path("cool.json"), "-o", path("cool.json")});
+  EXPECT_EQ(over.exitCode, 2);
+  EXPECT_THAT(onlyLine(over.err), HasSubstr("overwrite"));
+  const auto layer =
+      runBurin({"colormap", "--paraview", path("look.json"), "--layer", "3", "-o", path("x.json")});
+  EXPECT_EQ(layer.exitCode, 2);
+  EXPECT_THAT(onlyLine(layer.err), HasSubstr("has 1 layer, counted from 0"));
+}
+
+}  // namespace
+}  // namespace burin
