@@ -1,5 +1,6 @@
 #include "scene_keys.hpp"
 
+#include "annotation_keys.hpp"
 #include "burin/common/combine_name.hpp"
 #include "camera_keys.hpp"
 #include "layer_keys.hpp"
@@ -248,7 +249,14 @@ Codec<Scene> makeSceneCodec() {
        field<S, std::vector<ClipChoice>>(
            "clip", "Planes, and one box at most, that cut material away", clipListCodec(),
            [](const S& s) { return std::optional{clipChoices(s)}; }, setClip),
-       field("quality", "Accuracy against time", &S::quality, qualityCodec())});
+       field("quality", "Accuracy against time", &S::quality, qualityCodec()),
+       field<S, Annotations>(
+           "annotations", "Title, scale bar, legend and axes over the picture (not in EXR)",
+           annotationsCodec(),
+           [](const S& s) {
+             return s.annotations == Annotations{} ? std::nullopt : std::optional{s.annotations};
+           },
+           [](S& s, Annotations value) { s.annotations = std::move(value); })});
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include "burin/common/combine_name.hpp"
 #include "burin/common/error.hpp"
 #include "burin/common/temporary_file.hpp"
+#include "burin/host/annotate.hpp"
 #include "burin/host/scene_setup.hpp"
 
 namespace burin::host {
@@ -72,22 +73,26 @@ void checkOutputs(const RenderOptions& options) {
   if (!options.saveScene.empty()) checkWritable(options.saveScene);
 }
 
-Display::Display(const Scene& scene, const RenderOptions& options)
-    : scene_{scene}, options_{options} {}
+Display::Display(const PreparedScene& prepared, const RenderOptions& options)
+    : prepared_{prepared}, options_{options} {
+  if (prepared.scene.annotations.any() && !isExr()) checkFont();
+}
 
 bool Display::isExr() const {
   return options_.output.extension() == ".exr";
 }
 
-void Display::finish(ImageView<const Rgba> frame) {
+void Display::finish(ImageView<const Rgba> frame, const Camera& camera) {
   frame_ = frame;
-  if (!isExr()) picture_ = toDisplay(frame_, scene_.background);
+  if (isExr()) return;
+  picture_ = toDisplay(frame_, prepared_.scene.background);
+  annotate(picture_, frame_, prepared_.scene, prepared_.facts, camera);
 }
 
 PictureMetadata Display::metadataFor(const fs::path& target, double orbitDeg) const {
-  const Quality& quality = scene_.quality;
+  const Quality& quality = prepared_.scene.quality;
   PictureMetadata metadata;
-  metadata.scene = sceneTextFor(scene_, target);
+  metadata.scene = sceneTextFor(prepared_.scene, target);
   if (!quality.maxError) metadata.stepVoxels = quality.stepVoxels;
   metadata.orbitDeg = orbitDeg;
   metadata.technique = options_.reference ? "reference" : name(options_.worker.technique);

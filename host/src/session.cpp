@@ -50,7 +50,7 @@ Session::Session(const Communicator& comm, const RenderOptions& options)
   }
   onRoot(comm_, [&] {
     loadPictureEncoder();
-    display_.emplace(prepared_.scene, options_);
+    display_.emplace(prepared_, options_);
   });
   progress_.show("loading bricks");
   frames_ = makeFrameMaker();
@@ -148,7 +148,7 @@ Outcome Session::draw(int index, FrameStatistics& frame, RankStatistics& mine) {
     frame.composite = frames_->lastComposite();
     if (display_) {
       const PhaseTimer timer{mine.phases, Phase::kFinish};
-      finishing = attempt([&] { display_->finish(image); });
+      finishing = attempt([&] { display_->finish(image, camera); });
     }
     drawnDeg_ = orbit;
     drawn_ = mine;

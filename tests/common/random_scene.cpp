@@ -26,6 +26,7 @@ class Maker {
                    chance() ? Combine::kSum : Combine::kOver};
     else
       s.quality.maxError = real(1e-4, 0.5);
+    if (chance()) s.annotations = annotations();
     return s;
   }
 
@@ -108,6 +109,17 @@ class Maker {
         if (!c.upVector) c.upAxis = axis;
     }
     return c;
+  }
+
+  Annotations annotations() {
+    Annotations made;
+    made.title = maybe(text());
+    made.hasOrientation = chance();
+    if (chance()) made.scaleBar = ScaleBar{maybe(positive()), maybe(text())};
+    made.hasLegend = chance();
+    made.colour = maybe(colour());
+    made.fontSize = chance() ? whole(6, 200) : 0;
+    return made;
   }
 
   Layer layer() {

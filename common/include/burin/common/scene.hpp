@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "burin/common/annotations.hpp"
 #include "burin/common/camera.hpp"
 #include "burin/common/gradient_operator.hpp"
 #include "burin/common/style.hpp"
@@ -131,18 +132,21 @@ struct Scene {
   std::vector<ClipPlane> clip;
   std::optional<ClipBox> clipBox;
   Quality quality;
+  Annotations annotations;
   friend bool operator==(const Scene&, const Scene&) = default;
 };
 
 /// Parses and validates scene text (JSON, comments allowed). `name` is how messages call it.
 /// `overrides`: "layers.0.style.tone.strength=0.5"; applied to the JSON before validation; the
-/// value is JSON, or a bare word taken as a string; null removes the key. Throws Error{kUsage}:
+/// value is JSON, or a bare word taken as a string; null removes the key. Named styles and
+/// colour maps are read from files (styleFolders(), or `name`'s folder). Throws Error{kUsage}:
 /// "name:line:column: path: …", or "--set …: path: …" for what an override brought.
 Scene parseScene(std::string_view text, std::string_view name,
                  const std::vector<std::string>& overrides = {});
 
 /// The scene as JSON; parseScene(writeScene(s)) == s exactly for every scene that parseScene can
-/// return. What the scene cannot say is not written: angles beside a view or an eye.
+/// return. What the scene cannot say is not written: angles beside a view or an eye. Named styles
+/// are written with all their parameters, so the text means the same wherever it is read.
 std::string writeScene(const Scene& scene);
 
 /// Reads a scene file; a relative volume.file is made relative to the file's folder.

@@ -7,6 +7,7 @@
 #include "burin/common/statistics.hpp"
 #include "burin/host/command_line.hpp"
 #include "burin/host/picture.hpp"
+#include "burin/host/scene_setup.hpp"
 
 namespace burin::host {
 
@@ -25,19 +26,19 @@ void checkConflicts(const RenderOptions& options, const std::filesystem::path& v
 /// What rank 0 alone does with frames: the finish passes and the files. Not collective.
 class Display {
  public:
-  /// `scene`: resolved.
-  Display(const Scene& scene, const RenderOptions& options);
+  /// Throws Error{kUsage} if there is no font for annotations.
+  Display(const PreparedScene& prepared, const RenderOptions& options);
 
-  /// The finished picture in memory: background and 8 bits for PNG, the frame itself for EXR, which
-  /// must stay until it is written.
-  void finish(ImageView<const Rgba> frame);
+  /// The finished picture in memory: background, 8 bits and annotations for PNG; the frame itself
+  /// for EXR, which must stay until it is written. `camera`: what the frame was drawn with.
+  void finish(ImageView<const Rgba> frame, const Camera& camera);
   /// Writes what `finish` made. Throws as writePng does.
   void write(int index, double orbitDeg) const;
 
  private:
   bool isExr() const;
   PictureMetadata metadataFor(const std::filesystem::path& target, double orbitDeg) const;
-  const Scene& scene_;
+  const PreparedScene& prepared_;
   const RenderOptions& options_;
   ImageView<const Rgba> frame_;
   DisplayPicture picture_;
