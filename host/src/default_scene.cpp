@@ -30,7 +30,7 @@ TransferFunction risingOpacity(const Materials& materials) {
 /// Firm light material in a skin so thin that it hides little: most opaque at its boundary, where
 /// rays pass it quickly, and next to clear inside.
 TransferFunction coreInSkin(const Materials& materials) {
-  constexpr double kSkin = 0.12;
+  constexpr double kSkin = 0.05;
   constexpr double kFlesh = 0.006;
   const double outer = materials.outer;
   const double inner = *materials.inner;
