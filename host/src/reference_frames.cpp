@@ -51,15 +51,12 @@ class ReferenceFrames : public FrameMaker {
   void update(const Scene& scene) final {
     // The survey's percentile, as the renderer uses it: the two are made to be compared.
     node::ReferenceScales scales;
-    const node::SurveyRequest request{gradientOperatorsNeeded(scene),
-                                      laplacianNeeded(scene)};
+    const node::SurveyRequest request{gradientOperatorsNeeded(scene), laplacianNeeded(scene)};
     if (!request.gradients.empty() || request.laplacian)
-      scales =
-          node::surveyedScales(node::surveyVolume(comm_, source_, request), scene);
+      scales = node::surveyedScales(node::surveyVolume(comm_, source_, request), scene);
     checkMemory(comm_, {static_cast<std::int64_t>(source_.info().bytes()),
-                       "the volume, whole on every rank for --reference,"});
-    collectively(comm_, "loading the volume",
-                 [&] { renderer_.emplace(scene, source_, scales); });
+                        "the volume, whole on every rank for --reference,"});
+    collectively(comm_, "loading the volume", [&] { renderer_.emplace(scene, source_, scales); });
   }
 
   ImageView<const Rgba> make(const Camera& camera, RankStatistics& statistics) override {

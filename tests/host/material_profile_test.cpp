@@ -27,7 +27,7 @@ struct Surveyed {
 
 Surveyed surveyed(ArraySource source) {
   Surveyed result;
-  result.survey = node::surveyVolume(world(), source, false);
+  result.survey = node::surveyVolume(world(), source, {});
   result.profile = profileMaterials(world(), source, result.survey);
   return result;
 }
