@@ -6,7 +6,7 @@ namespace burin::scene_io {
 
 namespace {
 
-using C = CameraChoice;
+using Choice = CameraChoice;
 
 /// "up" is an axis by name or, beside an eye, a vector.
 using Up = std::variant<std::string, glm::dvec3>;
@@ -25,17 +25,17 @@ Codec<Up> upCodec() {
           Document{{"anyOf", {axis.schema, vector.schema}}}};
 }
 
-Field<C> upField() {
-  return field<C, Up>(
+Field<Choice> upField() {
+  return field<Choice, Up>(
       "up",
       "World axis that is up (auto: z for anatomical volumes, else y); beside eye also a vector",
       upCodec(),
-      [](const C& c) -> std::optional<Up> {
+      [](const Choice& c) -> std::optional<Up> {
         if (c.view) return std::nullopt;
         if (c.upVector) return *c.upVector;
         return c.upAxis;
       },
-      [](C& c, const Up& up) {
+      [](Choice& c, const Up& up) {
         if (const auto* vector = std::get_if<glm::dvec3>(&up)) {
           c.upVector = *vector;
         } else {
@@ -45,21 +45,22 @@ Field<C> upField() {
 }
 
 /// An orbit angle: not written where a view or an eye rules.
-Field<C> angleField(std::string_view name, std::string_view help, double C::*angle, Range range) {
-  return field<C, double>(
+Field<Choice> angleField(std::string_view name, std::string_view help, double Choice::*angle,
+                         Range range) {
+  return field<Choice, double>(
       name, help, number(range),
-      [angle](const C& c) { return c.view || c.eye ? std::nullopt : std::optional{c.*angle}; },
-      [angle](C& c, double value) { c.*angle = value; });
+      [angle](const Choice& c) { return c.view || c.eye ? std::nullopt : std::optional{c.*angle}; },
+      [angle](Choice& c, double value) { c.*angle = value; });
 }
 
-Field<C> projectionField() {
-  return field<C, std::string>(
+Field<Choice> projectionField() {
+  return field<Choice, std::string>(
       "projection", "How rays run", word({"perspective", "orthographic"}),
-      [](const C& c) {
+      [](const Choice& c) {
         const bool perspective = c.projection == Projection::kPerspective;
         return std::optional<std::string>{perspective ? "perspective" : "orthographic"};
       },
-      [](C& c, const std::string& value) {
+      [](Choice& c, const std::string& value) {
         c.projection =
             value == "perspective" ? Projection::kPerspective : Projection::kOrthographic;
       });
@@ -75,7 +76,7 @@ void exclude(const At& at, std::string_view ruler, std::initializer_list<std::st
   }
 }
 
-void checkCamera(const At& at, const C& camera) {
+void checkCamera(const At& at, const Choice& camera) {
   if (camera.view) exclude(at, "view", {"azimuth_deg", "elevation_deg", "eye", "target", "up"});
   if (camera.eye) {
     exclude(at, "eye", {"azimuth_deg", "elevation_deg"});
@@ -94,23 +95,23 @@ void checkCamera(const At& at, const C& camera) {
 }  // namespace
 
 Codec<CameraChoice> cameraCodec() {
-  return object<C>(
-      {angleField("azimuth_deg", "Orbit: degrees around the up axis, 0 in front", &C::azimuthDeg,
-                  kAnyNumber),
-       angleField("elevation_deg", "Orbit: degrees above the horizon", &C::elevationDeg,
+  return object<Choice>(
+      {angleField("azimuth_deg", "Orbit: degrees around the up axis, 0 in front",
+                  &Choice::azimuthDeg, kAnyNumber),
+       angleField("elevation_deg", "Orbit: degrees above the horizon", &Choice::elevationDeg,
                   {.minimum = -180, .maximum = 180}),
-       field("view", "Instead of angles: an anatomical view (world is LPS, up is z)", &C::view,
+       field("view", "Instead of angles: an anatomical view (world is LPS, up is z)", &Choice::view,
              word({"anterior", "posterior", "left", "right", "superior", "inferior"})),
-       field("eye", "Instead of angles: where the eye is, world units", &C::eye,
+       field("eye", "Instead of angles: where the eye is, world units", &Choice::eye,
              vector3(kAnyNumber)),
        field("target", "Beside eye: where it looks, world units; default the volume's centre",
-             &C::target, vector3(kAnyNumber)),
+             &Choice::target, vector3(kAnyNumber)),
        upField(),
        field("vertical_fov_deg", "Field of view of the smaller image side, in degrees",
-             &C::verticalFovDeg,
+             &Choice::verticalFovDeg,
              number(
                  {.minimum = 0, .maximum = 180, .minimumExcluded = true, .maximumExcluded = true})),
-       field("zoom", "Magnification of the picture; 1 shows the whole volume", &C::zoom,
+       field("zoom", "Magnification of the picture; 1 shows the whole volume", &Choice::zoom,
              number(kPositive)),
        projectionField()},
       checkCamera);

@@ -92,21 +92,21 @@ Codec<ClipBox> clipBoxCodec() {
 }
 
 Codec<ClipChoice> clipCodec() {
-  using Cut = ClipChoice;
-  return object<Cut>(
-      {field<Cut, glm::dvec4>(
+  using C = ClipChoice;
+  return object<C>(
+      {field<C, glm::dvec4>(
            "plane", "[a, b, c, d]: keeps a·x + b·y + c·z + d ≥ 0, world units", clipPlaneVector(),
-           [](const Cut& c) {
+           [](const C& c) {
              return c.plane ? std::optional{glm::dvec4{c.plane->normal, c.plane->offset}}
                             : std::nullopt;
            },
-           [](Cut& c, const glm::dvec4& value) {
+           [](C& c, const glm::dvec4& value) {
              c.plane = ClipPlane{glm::dvec3{value}, value.w};
            }),
-       field("box", "Keeps what is inside, world units", &Cut::box, clipBoxCodec()),
+       field("box", "Keeps what is inside, world units", &C::box, clipBoxCodec()),
        field("cap", "Light and tone see the cut itself, a voxel deep, not the material's gradient",
-             &Cut::hasCap, boolean())},
-      [](const At& at, const Cut& choice) {
+             &C::hasCap, boolean())},
+      [](const At& at, const C& choice) {
         if (choice.plane.has_value() == choice.box.has_value())
           at.fail("expected exactly one of 'plane' and 'box'");
       });
