@@ -21,17 +21,17 @@ double laplacianAt(const VolumeGrid& grid, const std::function<double(const glm:
 TEST(ReferenceLaplacian, OfAQuadraticIsItsTraceAtAnySpacing) {
   // Values are rounded to floats of some 1000: 2^-14, of which second differences over spacings of
   // at least 0.5 make up to 12 · 2^-14 / 0.25.
-  constexpr double kRounding = 12 * 0x1p-14 / 0.25;
+  constexpr double kBound = 12 * 0x1p-14 / 0.25;
   const auto field = [](const glm::dvec3& p) {
     return 3 * p.x * p.x - p.y * p.y + 0.5 * p.z * p.z + 2 * p.x * p.y - 4 * p.y * p.z + p.x;
   };
   VolumeGrid grid = makeGrid({12, 13, 11}, {0.5, 2, 1.25});
   grid.origin = {-3, -13, -6};
   const double percentile = 10;
-  EXPECT_NEAR(laplacianAt(grid, field, {5.3, 6, 5.9}, percentile), 5 / percentile, kRounding / 10);
+  EXPECT_NEAR(laplacianAt(grid, field, {5.3, 6, 5.9}, percentile), 5 / percentile, kBound / 10);
   grid.direction = {glm::dvec3{1, 0, 0}, glm::dvec3{0.4, 0.9, 0.1}, glm::dvec3{0.2, -0.3, 0.9}};
   EXPECT_NEAR(laplacianAt(grid, field, {5.3, 6, 5.9}, percentile), 5 / percentile,
-              2 * kRounding / 10);
+              2 * kBound / 10);
 }
 
 TEST(ReferenceLaplacian, OfAPulseIsTheKernel) {
