@@ -73,6 +73,19 @@ void checkOutputs(const RenderOptions& options) {
   if (!options.saveScene.empty()) checkWritable(options.saveScene);
 }
 
+PictureMetadata metadataFor(const Scene& scene, const RenderOptions& options,
+                            const fs::path& target, double orbitDeg) {
+  const Quality& quality = scene.quality;
+  PictureMetadata metadata;
+  metadata.scene = sceneTextFor(scene, target);
+  if (!quality.maxError) metadata.stepVoxels = quality.stepVoxels;
+  metadata.orbitDeg = orbitDeg;
+  metadata.technique = options.reference ? "reference" : name(options.worker.technique);
+  metadata.precision = options.reference ? "double" : name(options.worker.precision);
+  metadata.combine = name(quality.combine);
+  return metadata;
+}
+
 Display::Display(const PreparedScene& prepared, const RenderOptions& options)
     : prepared_{prepared}, options_{options} {
   if (prepared.scene.annotations.any() && !isExr()) checkFont();
@@ -89,21 +102,9 @@ void Display::finish(ImageView<const Rgba> frame, const Camera& camera) {
   annotate(picture_, frame_, prepared_.scene, prepared_.facts, camera);
 }
 
-PictureMetadata Display::metadataFor(const fs::path& target, double orbitDeg) const {
-  const Quality& quality = prepared_.scene.quality;
-  PictureMetadata metadata;
-  metadata.scene = sceneTextFor(prepared_.scene, target);
-  if (!quality.maxError) metadata.stepVoxels = quality.stepVoxels;
-  metadata.orbitDeg = orbitDeg;
-  metadata.technique = options_.reference ? "reference" : name(options_.worker.technique);
-  metadata.precision = options_.reference ? "double" : name(options_.worker.precision);
-  metadata.combine = name(quality.combine);
-  return metadata;
-}
-
 void Display::write(int index, double orbitDeg) const {
   const fs::path target = frameFile(options_, index);
-  const PictureMetadata metadata = metadataFor(target, orbitDeg);
+  const PictureMetadata metadata = metadataFor(prepared_.scene, options_, target, orbitDeg);
   if (isExr()) {
     writeExr(target, frame_, metadata);
   } else {

@@ -121,10 +121,7 @@ class Gallery {
 
   void write() const {
     const std::filesystem::path& target = options_.render.output;
-    const Quality& quality = prepared_.scene.quality;
-    writePng(target, sheet_->picture(),
-             {sceneTextFor(prepared_.scene, target),
-              quality.maxError ? std::nullopt : std::optional{quality.stepVoxels}, 0});
+    writePng(target, sheet_->picture(), metadataFor(prepared_.scene, options_.render, target, 0));
     note("{}: {} styles, {} x {}", target.string(), count_, sheet_->picture().size.width,
          sheet_->picture().size.height);
   }

@@ -27,11 +27,11 @@ void setRasteriserThreads(int threads) {
 /// Of this thread. Mesa's libraries share what they call the current context, but each remembers
 /// its own: one that thinks that its context is current still does nothing when asked for it again.
 /// So whoever comes next makes the one before let go.
-thread_local GlLibraryContext* current = nullptr;
+thread_local GlLibraryContext* currentContext = nullptr;
 
 bool bind(GlLibraryContext& next) noexcept {
-  if (current != nullptr && current != &next) current->release();
-  current = &next;
+  if (currentContext != nullptr && currentContext != &next) currentContext->release();
+  currentContext = &next;
   return next.makeCurrent();
 }
 
@@ -40,9 +40,9 @@ bool bind(GlLibraryContext& next) noexcept {
 struct OffscreenContext::State {
   explicit State(GlBackend library) : backend{makeBackend(library)} {}
   ~State() {
-    if (current != backend.get()) return;
+    if (currentContext != backend.get()) return;
     backend->release();
-    current = nullptr;
+    currentContext = nullptr;
   }
   State(const State&) = delete;
   State& operator=(const State&) = delete;

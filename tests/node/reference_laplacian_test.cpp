@@ -30,8 +30,7 @@ TEST(ReferenceLaplacian, OfAQuadraticIsItsTraceAtAnySpacing) {
   const double percentile = 10;
   EXPECT_NEAR(laplacianAt(grid, field, {5.3, 6, 5.9}, percentile), 5 / percentile, kBound / 10);
   grid.direction = {glm::dvec3{1, 0, 0}, glm::dvec3{0.4, 0.9, 0.1}, glm::dvec3{0.2, -0.3, 0.9}};
-  EXPECT_NEAR(laplacianAt(grid, field, {5.3, 6, 5.9}, percentile), 5 / percentile,
-              2 * kBound / 10);
+  EXPECT_NEAR(laplacianAt(grid, field, {5.3, 6, 5.9}, percentile), 5 / percentile, 2 * kBound / 10);
 }
 
 TEST(ReferenceLaplacian, OfAPulseIsTheKernel) {

@@ -87,8 +87,9 @@ TEST(Skipping, OnEqualsOffBitForBit) {
           // Pre-integrated segments also count if they cross one and have their middle elsewhere.
           EXPECT_EQ(on.samplesInOccupiedCells, off.samplesInOccupiedCells) << "scene " << scenes;
           EXPECT_LE(on.samplesInOccupiedCells, on.samplesVisited) << "scene " << scenes;
-          if (!kind.preintegrated)
+          if (!kind.preintegrated) {
             EXPECT_EQ(on.samplesInOccupiedCells, on.samplesVisited) << "scene " << scenes;
+          }
           EXPECT_EQ(off.leaps, 0) << "scene " << scenes;
           if (on.samplesVisited < off.samplesVisited) ++skippedSomething;
           ++scenes;

@@ -23,6 +23,10 @@ void checkOutputs(const RenderOptions& options);
 /// if there is none.
 void checkConflicts(const RenderOptions& options, const std::filesystem::path& volume);
 
+/// What a picture of that scene in `target` says about itself.
+PictureMetadata metadataFor(const Scene& scene, const RenderOptions& options,
+                            const std::filesystem::path& target, double orbitDeg);
+
 /// What rank 0 alone does with frames: the finish passes and the files. Not collective.
 class Display {
  public:
@@ -37,7 +41,6 @@ class Display {
 
  private:
   bool isExr() const;
-  PictureMetadata metadataFor(const std::filesystem::path& target, double orbitDeg) const;
   const PreparedScene& prepared_;
   const RenderOptions& options_;
   ImageView<const Rgba> frame_;
