@@ -42,7 +42,7 @@ TEST(SceneError, PlaceIsRightAfterEveryKindOfToken) {
     "clip": [{"plane":[-1.5e+0,0,0E1,2]},{"plane":[0,1,0,0]}/**/],)";
   EXPECT_EQ(complaint(before + "\n  \"here\": true }"),
             "s.json:4:3: here: unknown key; expected one of 'schema_version', 'volume', 'camera', "
-            "'image', 'lights', 'layers', 'clip', 'quality'");
+            "'image', 'lights', 'layers', 'clip', 'quality', 'annotations'");
 }
 
 TEST(SceneError, Syntax) {

@@ -23,6 +23,7 @@ namespace fs = std::filesystem;
 using test::ProgramResult;
 using test::runBurin;
 using test::TemporaryFolder;
+using ::testing::AnyOf;
 using ::testing::ContainsRegex;
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
@@ -100,7 +101,8 @@ TEST_P(FailingRank, ThrowsAtAnyTime) {
       if (rank > 0) {
         EXPECT_THAT(result.err, HasSubstr(fmt::format("rank {}: ", rank)));
       }
-      EXPECT_THAT(result.err, HasSubstr("bad_alloc"));
+      // The library that encodes pictures keeps the reason to itself.
+      EXPECT_THAT(result.err, AnyOf(HasSubstr("bad_alloc"), HasSubstr("cannot be written")));
     }
   }
   EXPECT_GE(said.size(), 2u);  // not all in one phase

@@ -394,7 +394,8 @@ TEST_F(Render, BricksAndRanksDrawTheSamePicture) {
 }
 
 TEST_F(Render, MoreRanksThanCellsDrawTheSamePicture) {
-  const std::vector<std::string> twoCells{"--set", "volume.dims=[3,2,2]"};
+  const std::vector<std::string> twoCells{"--set", "volume.dims=[3,2,2]", "--set",
+                                          "volume.procedural=ramp"};
   draw(path("a.exr"), twoCells);
   draw(path("b.exr"), twoCells, 4);
   EXPECT_GT(coverage(readPicture(path("a.exr"))), 0.05);

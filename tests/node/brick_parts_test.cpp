@@ -32,6 +32,8 @@ Scene ballScene(const std::string& style, double first) {
   Scene scene = sceneWithStyle(style);
   scene.layers[0].transferFunction = {
       {{first, {250, 230, 200}, 0}, {first + 30000, {200, 40, 30}, 0.5}}, {}};
+  if (!scene.layers[0].lineOpacity.empty())
+    scene.layers[0].lineOpacity = {{first, 0}, {first + 20000, 0.3}};
   return scene;
 }
 

@@ -76,6 +76,10 @@ inline Scene sceneWithStyle(const std::string& style) {
   } else if (style != "plain") {
     layer.styles.push_back(defaultSettings(*findStyle(style)));
   }
+  // By default they leave nearly nothing away from surfaces: tests want something to see.
+  for (StyleSettings& settings : layer.styles)
+    if (settings.name == "boundary" || settings.name == "silhouette")
+      settings.values.front() = 0.5;  // the table's first parameter: "constant"
   scene.layers.push_back(layer);
   return scene;
 }
