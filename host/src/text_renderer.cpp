@@ -9,7 +9,7 @@ extern "C" void burinRenderText(const TextToRender& text, RenderedText& rendered
   namespace Algorithm = OIIO::ImageBufAlgo;
   rendered.hasFont = Algorithm::text_size("x", text.fontSize, text.font).defined();
   const OIIO::ROI size = Algorithm::text_size(text.text, text.fontSize, text.font);
-  if (!size.defined()) return;
+  if (!size.defined() || size.xend <= size.xbegin) return;  // no font, or blanks alone
   // A pixel more on each side: letters may reach a little beyond where they are said to end.
   rendered.width = size.width() + 2;
   rendered.coverage.resize(static_cast<std::size_t>(rendered.width) *
