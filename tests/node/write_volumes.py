@@ -12,7 +12,12 @@ import os
 import subprocess
 import sys
 
-import numpy as np
+try:
+    import numpy as np
+except ImportError:
+    with open(os.path.join(sys.argv[1], "missing.txt"), "w") as out:
+        out.write("numpy\n")
+    sys.exit()
 
 SHAPE = (6, 5, 7)  # z, y, x
 SPACING = (0.5, 2.0, 1.25)  # x, y, z
