@@ -70,6 +70,7 @@ class Gallery {
     prepared_ = prepareScene(comm_, options_.render);
     onRoot(comm_, [&] { checkConflicts(options_.render, prepared_.scene.volume.file); });
     onRoot(comm_, [&] {
+      loadPictureEncoder();
       sheet_.emplace(prepared_.scene.imageSize, count_,
                      options_.columns > 0 ? options_.columns : squareColumns(count_));
     });
