@@ -61,11 +61,23 @@ void widen(VoxelType type, std::span<const std::byte> bytes, std::vector<float>&
   }
 }
 
+/// Of rows and of slices, such that at most `atMost` voxels are looked at.
+int strideFor(glm::ivec3 dims, std::int64_t atMost) {
+  const auto voxelsAt = [&](int stride) {
+    const auto taken = [&](int count) { return std::int64_t{(count - 1) / stride + 1}; };
+    return std::int64_t{dims.x} * taken(dims.y) * taken(dims.z);
+  };
+  int stride = 1;
+  while (stride < std::max(dims.y, dims.z) && voxelsAt(stride) > atMost) ++stride;
+  return stride;
+}
+
 /// Adds slices, which come in ascending order with their neighbours, to a profile.
 class SliceProfiler {
  public:
-  SliceProfiler(const node::VolumeInfo& info, const ValueRange& range, MaterialProfile& profile)
-      : type_{info.type}, dims_{info.grid.dims}, range_{range}, profile_{profile} {
+  SliceProfiler(const node::VolumeInfo& info, const ValueRange& range, int stride,
+                MaterialProfile& profile)
+      : type_{info.type}, dims_{info.grid.dims}, range_{range}, stride_{stride}, profile_{profile} {
     // Differences across two voxels, over their distance.
     scale_ = 0.5 * kGradientSteps * info.grid.smallestSpacing() / info.grid.spacing /
              std::max(range.highest - range.lowest, std::numeric_limits<double>::min());
@@ -77,10 +89,11 @@ class SliceProfiler {
 
   /// The slices next to z have been loaded.
   void add(int z) {
+    if (z % stride_ != 0) return;
     const std::vector<float>& here = slice(z);
     const std::vector<float>& below = slice(std::max(z - 1, 0));
     const std::vector<float>& above = slice(std::min(z + 1, dims_.z - 1));
-    for (int y = 0; y < dims_.y; ++y) {
+    for (int y = 0; y < dims_.y; y += stride_) {
       for (int x = 0; x < dims_.x; ++x) {
         const std::size_t at = offset(x, y);
         const glm::dvec3 difference{double{here[offset(std::min(x + 1, dims_.x - 1), y)]} -
@@ -102,8 +115,9 @@ class SliceProfiler {
 
   void count(double value, double magnitude) {
     if (!std::isfinite(magnitude) || !(value >= range_.lowest && value <= range_.highest)) return;
-    const double whole = std::min(std::round(magnitude), double{kMagnitudeBins - 1});
-    const auto steps = static_cast<std::int64_t>(whole);
+    // Not std::round, a call for each voxel.
+    const auto steps =
+        static_cast<std::int64_t>(std::min(magnitude + 0.5, double{kMagnitudeBins - 1}));
     const std::size_t bin = profile_.histogram.binOf(value);
     ++profile_.histogram.counts[bin];
     profile_.gradientSums[bin] += steps;
@@ -114,6 +128,7 @@ class SliceProfiler {
   VoxelType type_;
   glm::ivec3 dims_;
   ValueRange range_;
+  int stride_;
   MaterialProfile& profile_;
   glm::dvec3 scale_{1};
   std::array<std::vector<float>, 3> slices_;
@@ -145,7 +160,7 @@ double MaterialProfile::magnitudeQuantile(double fraction) const {
 }
 
 MaterialProfile profileMaterials(const Communicator& comm, node::BrickSource& source,
-                                 const node::VolumeSurvey& survey) {
+                                 const node::VolumeSurvey& survey, std::int64_t atMost) {
   const node::VolumeInfo& info = source.info();
   const glm::ivec3 dims = info.grid.dims;
   const ValueRange range = rangeWithoutOutliers(survey);
@@ -161,7 +176,7 @@ MaterialProfile profileMaterials(const Communicator& comm, node::BrickSource& so
     withNeighbours.lo.z = std::max(mine.lo.z - 1, 0);
     withNeighbours.hi.z = std::min(mine.hi.z + 1, dims.z);
   }
-  SliceProfiler slices{info, range, profile};
+  SliceProfiler slices{info, range, strideFor(dims, atMost), profile};
   node::readSlabs(comm, source, std::span{&withNeighbours, 1}, [&](const node::Slab& slab) {
     const std::size_t bytes = slab.voxels.size() / static_cast<std::size_t>(slab.box.size().z);
     for (int z = slab.box.lo.z; z < slab.box.hi.z; ++z) {

@@ -69,6 +69,17 @@ TEST(MaterialProfile, AFewWildVoxelsDoNotStretchTheBins) {
   EXPECT_GT(profile.histogram.edge(profile.histogram.counts.size()), 90);
 }
 
+TEST(MaterialProfile, LooksAtSomeRowsOfALargeVolume) {
+  // 17³ voxels are 289 rows; of each third of each third slice 36. Their gradients are those of
+  // neighbours, not of voxels three apart: 2 per voxel of a range of 32, 1 at the two ends.
+  ArraySource source{cube(17), [](glm::ivec3 p) { return static_cast<float>(2 * p.x); }};
+  const auto survey = node::surveyVolume(world(), source, {});
+  const MaterialProfile profile = profileMaterials(world(), source, survey, 36 * 17);
+  EXPECT_EQ(profile.histogram.total(), 36 * 17);
+  EXPECT_EQ(profile.magnitudeCounts[static_cast<std::size_t>(kGradientSteps / 16)], 36 * 15);
+  EXPECT_EQ(profile.magnitudeCounts[static_cast<std::size_t>(kGradientSteps / 32)], 36 * 2);
+}
+
 TEST(MaterialProfile, SkipsWhatIsNotFinite) {
   const auto [survey, profile] = surveyed(
       ArraySource{cube(8), [](glm::ivec3 p) { return p.x == 3 ? NAN : static_cast<float>(p.y); }});

@@ -31,11 +31,17 @@ struct MaterialProfile {
 
 inline constexpr double kGradientSteps = 4096;
 
-/// Collective. One pass over all voxels, split among the ranks; the same on all ranks and for any
-/// number of them. A few voxels far beyond all others do not stretch the bins: these span what all
-/// but a thousandth of the survey's blocks hold, if that is less than a 256th of the whole range.
-/// `survey` is of the same volume. Throws CollectiveError if reading fails.
+/// About how many voxels tell what a volume is made of.
+inline constexpr std::int64_t kProfiledVoxels = std::int64_t{1} << 24;
+
+/// Collective. One pass over the volume, split among the ranks; the same on all ranks and for any
+/// number of them. Of a volume of more than `atMost` voxels it looks at each n-th row of each n-th
+/// slice, n as small as that allows; differences are those to the next voxels all the same. A few
+/// voxels far beyond all others do not stretch the bins: these span what all but a thousandth of
+/// the survey's blocks hold, if that is less than a 256th of the whole range. `survey` is of the
+/// same volume. Throws CollectiveError if reading fails.
 MaterialProfile profileMaterials(const Communicator& comm, node::BrickSource& source,
-                                 const node::VolumeSurvey& survey);
+                                 const node::VolumeSurvey& survey,
+                                 std::int64_t atMost = kProfiledVoxels);
 
 }  // namespace burin::host
