@@ -25,6 +25,10 @@ void MagnitudeHistogram::add(float magnitude) {
   ++counts_[magnitude == 0 ? 0 : 1 + bin];
 }
 
+void MagnitudeHistogram::addZeros(std::int64_t count) {
+  counts_[0] += count;
+}
+
 double MagnitudeHistogram::percentile(double fraction) const {
   const std::int64_t total = std::accumulate(counts_.begin(), counts_.end(), std::int64_t{0});
   if (total == 0) return 0;
@@ -55,7 +59,8 @@ GradientSurvey::GradientSurvey(GradientOperator which, const VolumeInfo& info, i
   metric_ = 0.25 * toIndex * glm::transpose(toIndex);
   const std::size_t count = static_cast<std::size_t>(dims_.x) * static_cast<std::size_t>(dims_.y);
   for (auto& slice : slices_) slice.resize(count);
-  differences_.resize(static_cast<std::size_t>(dims_.x));
+  for (auto* row : {&alongX_, &alongY_, &alongZ_, &squares_})
+    row->resize(static_cast<std::size_t>(dims_.x));
 }
 
 double GradientSurvey::largest() const {
@@ -83,12 +88,12 @@ void GradientSurvey::measureSlice(int z) {
 
 GradientSurvey::Row GradientSurvey::row(int y, int z) {
   const auto number = static_cast<std::size_t>(std::clamp(y, 0, dims_.y - 1));
-  return slice(std::clamp(z, 0, dims_.z - 1)).data() + number * differences_.size();
+  return slice(std::clamp(z, 0, dims_.z - 1)).data() + number * alongX_.size();
 }
 
 template <typename Work>
 void GradientSurvey::forNeighbours(Work&& work) const {
-  const std::size_t last = differences_.size() - 1;
+  const std::size_t last = alongX_.size() - 1;
   work(std::size_t{0}, std::size_t{0}, std::min<std::size_t>(1, last));
   for (std::size_t x = 1; x < last; ++x) work(x, x - 1, x + 1);
   if (last > 0) work(last, last - 1, last);
@@ -98,31 +103,47 @@ void GradientSurvey::differencesAlongX(Row here) {
   forNeighbours([&](std::size_t x, std::size_t below, std::size_t above) {
     const double centre = double{here[x]} - double{here[x]};  // 0, or NaN at a NaN voxel
     const double difference = double{here[above]} - double{here[below]};
-    differences_[x] = {weights_.face * difference + centre, 0, 0};
+    alongX_[x] = weights_.face * difference + centre;
   });
+  std::ranges::fill(alongY_, 0);
+  std::ranges::fill(alongZ_, 0);
 }
 
 void GradientSurvey::addPair(Row above, Row below, const glm::dvec2& direction, double straight,
                              double oblique) {
+  for (std::size_t x = 0; x < alongX_.size(); ++x) {
+    const double across = straight * (double{above[x]} - double{below[x]});
+    alongY_[x] += direction.x * across;
+    alongZ_[x] += direction.y * across;
+  }
+  if (oblique > 0) addObliquePairs(above, below, direction, oblique);
+}
+
+void GradientSurvey::addObliquePairs(Row above, Row below, const glm::dvec2& direction,
+                                     double oblique) {
   forNeighbours([&](std::size_t x, std::size_t xBelow, std::size_t xAbove) {
-    double across = straight * (double{above[x]} - double{below[x]});
-    double along = 0;
-    if (oblique > 0) {
-      const double rising = double{above[xAbove]} - double{below[xBelow]};
-      const double falling = double{above[xBelow]} - double{below[xAbove]};
-      across += oblique * (rising + falling);
-      along = oblique * (rising - falling);
-    }
-    differences_[x] += glm::dvec3{along, direction * across};
+    const double rising = double{above[xAbove]} - double{below[xBelow]};
+    const double falling = double{above[xBelow]} - double{below[xAbove]};
+    const double across = oblique * (rising + falling);
+    alongX_[x] += oblique * (rising - falling);
+    alongY_[x] += direction.x * across;
+    alongZ_[x] += direction.y * across;
   });
 }
 
 void GradientSurvey::countMagnitudes() {
   const double xx = metric_[0][0], yy = metric_[1][1], zz = metric_[2][2];
   const double xy = 2 * metric_[0][1], xz = 2 * metric_[0][2], yz = 2 * metric_[1][2];
-  for (const glm::dvec3& d : differences_) {
-    const double square =
-        d.x * (xx * d.x + xy * d.y + xz * d.z) + d.y * (yy * d.y + yz * d.z) + zz * d.z * d.z;
+  for (std::size_t i = 0; i < squares_.size(); ++i) {
+    const double x = alongX_[i], y = alongY_[i], z = alongZ_[i];
+    squares_[i] = x * (xx * x + xy * y + xz * z) + y * (yy * y + yz * z) + zz * z * z;
+  }
+  std::int64_t zeros = 0;
+  for (const double square : squares_) {
+    if (square == 0) {  // most voxels of many scans, and no root of theirs is needed
+      ++zeros;
+      continue;
+    }
     if (!(square <= std::numeric_limits<double>::max())) continue;
     largestSquare_ = std::max(largestSquare_, square);
     // A float holds magnitudes up to 3e38; larger ones share the last bin.
@@ -130,6 +151,7 @@ void GradientSurvey::countMagnitudes() {
     histogram_.add(
         static_cast<float>(std::min(magnitude, double{std::numeric_limits<float>::max()})));
   }
+  histogram_.addZeros(zeros);
 }
 
 }  // namespace burin::node

@@ -17,6 +17,7 @@ class MagnitudeHistogram {
  public:
   MagnitudeHistogram();
   void add(float magnitude);
+  void addZeros(std::int64_t count);
   /// For sums over ranks. The first entry counts exact zeros.
   std::span<std::int64_t> counts() { return counts_; }
   /// Upper edge of the bin below which `fraction` of all magnitudes lie; 0 if there are none or if
@@ -58,6 +59,7 @@ class GradientSurvey {
   /// Adds what a pair of opposite rows says, `direction` (y, z) from one to the other: `straight`
   /// the weight of neighbours at the same x, `oblique` of those beside it.
   void addPair(Row above, Row below, const glm::dvec2& direction, double straight, double oblique);
+  void addObliquePairs(Row above, Row below, const glm::dvec2& direction, double oblique);
   void countMagnitudes();
 
   GradientOperator which_;
@@ -70,7 +72,9 @@ class GradientSurvey {
   float highest_;
   glm::dmat3 metric_;  ///< |∇f|² = gᵀ·metric·g for differences g across two voxels
   std::array<std::vector<float>, 3> slices_;
-  std::vector<glm::dvec3> differences_;  ///< one row's; NaN where the gradient is not defined
+  /// One row's, by axis, for loops over a row that fit vector units; NaN where the gradient is not
+  /// defined. Its squares are of its magnitudes.
+  std::vector<double> alongX_, alongY_, alongZ_, squares_;
   double largestSquare_ = 0;
   MagnitudeHistogram histogram_;
 };
