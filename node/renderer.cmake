@@ -13,7 +13,7 @@ target_include_directories(burin_gl_loader PUBLIC $<BUILD_INTERFACE:${glad_dir}/
 
 set(shader_files
   fullscreen.vert lattice.glsl ownership.glsl opacity.glsl volume.glsl neighbourhood.glsl
-  skip.glsl preintegration.glsl sides.glsl shading.glsl caps.glsl position.glsl laplacian.glsl adaptive.glsl
+  skip.glsl preintegration.glsl widgets.glsl sides.glsl shading.glsl caps.glsl position.glsl laplacian.glsl adaptive.glsl
   cells.glsl halving.glsl raycast.glsl slice.glsl resolve.glsl
   styles/surface.glsl styles/boundary.glsl styles/silhouette.glsl styles/fade.glsl styles/light.glsl
   styles/tone.glsl styles/toon.glsl styles/depth.glsl styles/laplacian.glsl styles/edges.glsl
@@ -30,7 +30,7 @@ add_custom_command(
 burin_library(node
   SOURCES src/gl.cpp src/osmesa_context.cpp src/egl_context.cpp src/offscreen_context.cpp
           src/thread_share.cpp src/shader_source.cpp
-          src/gl_program.cpp src/curve_code.cpp src/program_generator.cpp src/transfer_integral.cpp src/transfer_table.cpp
+          src/gl_program.cpp src/curve_code.cpp src/widget_code.cpp src/program_generator.cpp src/transfer_integral.cpp src/transfer_table.cpp
           src/visible_values.cpp src/value_scale.cpp src/value_ranges.cpp src/clip_planes.cpp
           src/visible_blocks.cpp src/macrocells.cpp src/chessboard_distance.cpp
           src/step_map.cpp src/brick_texture.cpp src/laplacian_texture.cpp src/brick.cpp src/cost_estimate.cpp

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "transfer_function_file.hpp"
+#include "widget_keys.hpp"
 
 namespace burin::scene_io {
 
@@ -87,14 +88,24 @@ Codec<std::vector<StyleSettings>> styleOrNameCodec() {
 Codec<TransferFunction> transferFunctionCodec() {
   using F = TransferFunction;
   return object<F>(
-      {required(field("points",
-                      "Points by rising value, linear between them; two at one value make a step",
-                      &F::points, list(pointCodec(), 1, kMostPoints))),
+      {field<F, std::vector<TransferPoint>>(
+           "points", "Points by rising value, linear between them; two at one value make a step",
+           list(pointCodec(), 1, kMostPoints),
+           [](const F& f) { return f.points.empty() ? std::nullopt : std::optional{f.points}; },
+           [](F& f, std::vector<TransferPoint> points) { f.points = std::move(points); }),
+       field<F, std::vector<TransferWidget>>(
+           "widgets", "Instead of points: regions of value and gradient magnitude", widgetsCodec(),
+           [](const F& f) { return f.widgets.empty() ? std::nullopt : std::optional{f.widgets}; },
+           [](F& f, std::vector<TransferWidget> widgets) { f.widgets = std::move(widgets); }),
        field("opacity_unit_length",
              "World length that opacities refer to; default the smallest voxel spacing",
              &F::opacityUnitLength, number(kPositive))},
       [](const At& at, const F& function) {
-        checkPoints({*at.node.find("points"), json::childPath(at.path, "points")}, function.points);
+        if (function.points.empty() == function.widgets.empty())
+          at.fail("expected exactly one of 'points' and 'widgets'");
+        if (!function.points.empty())
+          checkPoints({*at.node.find("points"), json::childPath(at.path, "points")},
+                      function.points);
       });
 }
 
@@ -119,8 +130,8 @@ Codec<Layer> layerCodec() {
   return object<L>(
       {field("name", "Name for people", &L::name, text()),
        required(field("transfer_function",
-                      "Colour and opacity by value: points, or a file of another "
-                      "program",
+                      "Colour and opacity by value: points, or a file of another program; or by "
+                      "value and gradient magnitude: widgets",
                       &L::transferFunction, transferFunctionOrFileCodec())),
        field<L, std::vector<OpacityPoint>>(
            "line_opacity", "Opacity of the lines by value, in place of the transfer function's",
@@ -132,7 +143,13 @@ Codec<Layer> layerCodec() {
        field("style",
              "Effects on this layer, an empty entry with its defaults; or the name of "
              "a style",
-             &L::styles, styleOrNameCodec())});
+             &L::styles, styleOrNameCodec())},
+      [](const At& at, const L& layer) {
+        if (layer.transferFunction.isTwoDimensional() && !layer.lineOpacity.empty())
+          at.fail(
+              "'line_opacity' is by value alone: beside 'widgets' lines have the opacity of "
+              "these");
+      });
 }
 
 }  // namespace burin::scene_io

@@ -70,6 +70,10 @@ std::vector<MapNode> nodesOf(const TransferFunction& function) {
 }  // namespace
 
 std::string paraviewJson(const TransferFunction& function, std::string_view name) {
+  if (function.isTwoDimensional())
+    fail(ExitCode::kUsage,
+         "'widgets' depend on the gradient: ParaView's colour maps hold a transfer function of "
+         "points only");
   BURIN_CHECK(!function.points.empty());
   json::Document colours = json::Document::array();
   json::Document opacities = json::Document::array();

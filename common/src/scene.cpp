@@ -53,6 +53,7 @@ Camera eyeCamera(const Scene& scene, const VolumeFacts& volume, double extraAzim
 }
 
 bool needsGradient(const Layer& layer) {
+  if (layer.transferFunction.isTwoDimensional()) return true;
   return std::any_of(layer.styles.begin(), layer.styles.end(), [](const StyleSettings& s) {
     const StyleSpec* spec = findStyle(s.name);
     return spec != nullptr && spec->needsGradient;
@@ -148,6 +149,8 @@ int ghostLayersNeeded(const Scene& scene) {
   int needed = 0;
   for (const Layer& layer : scene.layers) {
     const bool gradient = needsGradient(layer);
+    if (layer.transferFunction.isTwoDimensional())
+      needed = std::max(needed, findStyle("gradient")->ghostLayers);
     for (const StyleSettings& settings : layer.styles) {
       const StyleSpec* spec = findStyle(settings.name);
       BURIN_CHECK(spec != nullptr);
@@ -163,7 +166,8 @@ int ghostLayersNeeded(const Scene& scene) {
 std::vector<TransferFunction> transferFunctions(const Scene& scene) {
   std::vector<TransferFunction> functions;
   for (const Layer& layer : scene.layers) {
-    functions.push_back(layer.transferFunction);
+    const TransferFunction& own = layer.transferFunction;
+    functions.push_back(own.isTwoDimensional() ? own.envelope() : own);
     if (layer.lineOpacity.empty()) continue;
     TransferFunction lines{{}, layer.transferFunction.opacityUnitLength};
     for (const OpacityPoint& point : layer.lineOpacity)

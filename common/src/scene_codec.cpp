@@ -148,6 +148,16 @@ Codec<std::optional<Colour>> colourOrTransparent() {
           Document{{"anyOf", {colourSchema(), Document{{"const", "transparent"}}}}}};
 }
 
+Codec<glm::dvec2> risingPair(Range component) {
+  Codec<glm::dvec2> codec = numbers<glm::dvec2, 2, double>(component);
+  codec.read = [any = codec.read](const At& at) {
+    const glm::dvec2 pair = any(at);
+    if (!(pair.x < pair.y)) at.fail("expected rising values");
+    return pair;
+  };
+  return codec;
+}
+
 Codec<glm::dvec3> vector3(Range component) {
   return numbers<glm::dvec3, 3, double>(component);
 }

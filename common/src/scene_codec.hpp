@@ -48,6 +48,8 @@ Codec<std::string> word(std::vector<std::string_view> choices);
 Codec<Colour> colour();
 /// A colour, or the word "transparent" for none.
 Codec<std::optional<Colour>> colourOrTransparent();
+/// Two numbers, the second above the first.
+Codec<glm::dvec2> risingPair(Range component);
 Codec<glm::dvec3> vector3(Range component);
 /// A direction: any vector but zero.
 Codec<glm::dvec3> direction();

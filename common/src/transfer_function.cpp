@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "burin/common/error.hpp"
 
@@ -30,8 +31,47 @@ Classified TransferFunction::classify(double value, double unitLength) const {
           extinctionFromOpacity(opacity, unitLength)};
 }
 
+Classified TransferFunction::classify(double value, double magnitude, double unitLength) const {
+  Classified sum{.colour = glm::dvec3{0}, .extinction = 0};
+  for (const TransferWidget& widget : widgets) {
+    const double extinction =
+        extinctionFromOpacity(widget.opacity, unitLength) * widget.weight(value, magnitude);
+    sum.colour += extinction * widget.colour.linear();
+    sum.extinction += extinction;
+  }
+  if (sum.extinction > 0) sum.colour /= sum.extinction;
+  return sum;
+}
+
+TransferFunction TransferFunction::envelope() const {
+  std::vector<glm::dvec2> ranges;
+  double largest = 0;
+  for (const TransferWidget& widget : widgets) {
+    if (!(widget.opacity > 0)) continue;
+    ranges.push_back(widget.valueRange());
+    largest = std::max(largest, widget.opacity);
+  }
+  std::ranges::sort(ranges, {}, [](const glm::dvec2& range) { return range.x; });
+  TransferFunction function{{}, opacityUnitLength};
+  double end = -std::numeric_limits<double>::infinity();
+  for (const glm::dvec2& range : ranges) {
+    if (range.x > end) {
+      if (!function.points.empty()) function.points.push_back({end, {}, 0});
+      function.points.push_back({range.x, {}, 0});
+      function.points.push_back({range.x, {}, largest});
+      function.points.push_back({range.y, {}, largest});
+    }
+    end = std::max(end, range.y);
+    function.points.back().value = end;
+  }
+  if (ranges.empty()) end = widgets.front().value.x;
+  function.points.push_back({end, {}, 0});
+  return function;
+}
+
 double TransferFunction::largestExtinction(double lo, double hi, double unitLength) const {
   if (!(lo <= hi)) return 0;  // no value at all: a cell of NaN voxels
+  if (isTwoDimensional()) return envelope().largestExtinction(lo, hi, unitLength);
   double largest =
       std::max(classify(lo, unitLength).extinction, classify(hi, unitLength).extinction);
   // Piecewise linear opacity is largest at an end or at a point; at a step inside the interval both

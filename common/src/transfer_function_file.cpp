@@ -15,19 +15,6 @@ struct ColourMapChoice {
   std::optional<double> opacityUnitLength;
 };
 
-Codec<glm::dvec2> rangeCodec() {
-  const Codec<std::vector<double>> pair = list(number(kAnyNumber), 2, 2);
-  return {[pair](const At& at) {
-            const std::vector<double> ends = pair.read(at);
-            if (!(ends[0] < ends[1])) at.fail("expected rising values");
-            return glm::dvec2{ends[0], ends[1]};
-          },
-          [pair](const glm::dvec2& range) {
-            return pair.write({range.x, range.y});
-          },
-          pair.schema};
-}
-
 const Codec<ColourMapChoice>& colourMapChoiceCodec() {
   using C = ColourMapChoice;
   static const Codec<C> codec = object<C>(
@@ -37,7 +24,7 @@ const Codec<ColourMapChoice>& colourMapChoiceCodec() {
                       &C::file, text())),
        field("map", "Which of the file's maps; default the first", &C::map, text()),
        field("range", "Values that the map's first and last colour get; default the map's own",
-             &C::range, rangeCodec()),
+             &C::range, risingPair(kAnyNumber)),
        field("opacity_unit_length",
              "World length that opacities refer to; default the map's own, or the smallest voxel "
              "spacing",

@@ -78,13 +78,25 @@ void drawArrow(DisplayPicture& inset, const Arrow& arrow, const Camera& camera, 
           arrow.colour);
 }
 
-/// The values that a legend shows: from the first to the last point, or a unit around one alone.
+/// The values that a legend shows: from the first to the last point, or a unit around one alone;
+/// those of all widgets.
 struct ShownRange {
   double lowest;
   double highest;
 };
 
+ShownRange valuesOfWidgets(const TransferFunction& function) {
+  const glm::dvec2 first = function.widgets.front().valueRange();
+  ShownRange range{first.x, first.y};
+  for (const TransferWidget& widget : function.widgets) {
+    const glm::dvec2 own = widget.valueRange();
+    range = {std::min(range.lowest, own.x), std::max(range.highest, own.y)};
+  }
+  return range;
+}
+
 ShownRange shownValues(const TransferFunction& function) {
+  if (function.isTwoDimensional()) return valuesOfWidgets(function);
   const double lowest = function.points.front().value;
   const double highest = function.points.back().value;
   if (highest > lowest) return {lowest, highest};
@@ -110,6 +122,28 @@ void drawFunction(DisplayPicture& inset, const TransferFunction& function,
     }
     drawInk(inset, mask, area.x + column, area.y, displayed(found.colour));
   }
+}
+
+/// Gradient magnitude as height, colour covering as much as it is opaque.
+void drawWidgets(DisplayPicture& inset, const TransferFunction& function,
+                 const PixelRectangle& area, const Colour& ink) {
+  const ShownRange range = shownValues(function);
+  const double unit = function.opacityUnitLength.value_or(1);
+  InkMask dot{1, 1};
+  for (int row = 0; row < area.height; ++row) {
+    const double magnitude = 1 - (row + 0.5) / area.height;
+    for (int column = 0; column < area.width; ++column) {
+      const double t = (column + 0.5) / area.width;
+      const Classified found =
+          function.classify((1 - t) * range.lowest + t * range.highest, magnitude, unit);
+      dot.at(0, 0) = coverageOf(-std::expm1(-found.extinction * unit));
+      drawInk(inset, dot, area.x + column, area.y + row, displayed(found.colour));
+    }
+  }
+  InkMask axes{area.width, area.height};
+  addBox(axes, {0, 0, 1, area.height});
+  addBox(axes, {0, area.height - 1, area.width, 1});
+  drawInk(inset, axes, area.x, area.y, ink);
 }
 
 std::string shortNumber(double value) {
@@ -168,7 +202,11 @@ DisplayPicture legendInset(const std::vector<Layer>& layers, int fontSize, const
     const TransferFunction& function = layers[i].transferFunction;
     const int top = perLayer * static_cast<int>(i);
     drawInk(inset, textMask(layers[i].name, fontSize), 0, top, ink);
-    drawFunction(inset, function, {0, top + line, width, plot}, strip);
+    const PixelRectangle area{0, top + line, width, plot};
+    if (function.isTwoDimensional())
+      drawWidgets(inset, function, area, ink);
+    else
+      drawFunction(inset, function, area, strip);
     const ShownRange range = shownValues(function);
     drawInk(inset, textMask(shortNumber(range.lowest), fontSize), 0, top + line + plot, ink);
     const InkMask highest = textMask(shortNumber(range.highest), fontSize);

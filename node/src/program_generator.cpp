@@ -8,6 +8,7 @@
 #include "burin/common/error.hpp"
 #include "curve_code.hpp"
 #include "operator_weights.hpp"
+#include "widget_code.hpp"
 
 namespace burin::node {
 namespace {
@@ -27,6 +28,11 @@ std::string typeOf(const ParameterSpec& parameter) {
 bool usedAnywhere(const Scene& scene, std::string_view style) {
   return std::ranges::any_of(scene.layers,
                              [&](const Layer& layer) { return layer.style(style) != nullptr; });
+}
+
+bool hasWidgets(const Scene& scene) {
+  return std::ranges::any_of(
+      scene.layers, [](const Layer& layer) { return layer.transferFunction.isTwoDimensional(); });
 }
 
 bool positionNeeded(const Scene& scene) {
@@ -146,14 +152,19 @@ class LayerCode {
   void add(std::size_t i) {
     const Layer& layer = scene_.layers[i];
     const bool ownLines = !layer.lineOpacity.empty();
-    const std::size_t number = addClass();
+    const bool byGradient = layer.transferFunction.isTwoDimensional();
+    const std::size_t number = byGradient ? addWidgetClass(i) : addClass();
     const std::size_t lines = ownLines ? addClass() : number;
     const std::string shown = ownLines ? fmt::format(" + extinction{}", lines) : "";
-    body_ += fmt::format(
-        "  if (extinction{0}{2} > 0.0) {{\n"
-        "    Shading s = Shading({1}, extinction{0}, vec3(0.0), 0.0, 1.0);\n",
-        number, colourOf(number, ownLines), shown);
-    if (gradientNeededBy(layer)) addSurface(i, layer);
+    body_ += fmt::format("  if (extinction{}{} > 0.0) {{\n", number, shown);
+    std::string magnitude;
+    if (byGradient) {
+      magnitude = magnitudeOf(i, layer);
+      addWidgets(i, number, magnitude);
+    }
+    body_ += fmt::format("    Shading s = Shading({1}, extinction{0}, vec3(0.0), 0.0, 1.0);\n",
+                         number, byGradient ? "widgetColour" : colourOf(number, ownLines));
+    if (gradientNeededBy(layer)) addSurface(i, layer, magnitude);
     addStyles(i, layer);
     addResult(lines);
     body_ += "  }\n";
@@ -203,6 +214,45 @@ class LayerCode {
         i, i == 0 ? "" : " + ");
   }
 
+  /// The class of a layer by value and gradient: of its values alone it is known whether anything
+  /// may show.
+  std::size_t addWidgetClass(std::size_t layer) {
+    const std::size_t i = classes_++;
+    const TransferFunction& function = scene_.layers[layer].transferFunction;
+    const std::string rows = widgetsUniform(layer);
+    const std::size_t count = kRowsPerWidget * function.widgets.size();
+    uniforms_ += fmt::format("uniform vec4 {0}[{1}];\nvec4 kept_{0}[{1}];\nfloat extinction{2};\n",
+                             rows, count, i);
+    prepare_ +=
+        fmt::format("  for (int i = 0; i < {1}; ++i) kept_{0}[i] = one * {0}[i];\n", rows, count);
+    const bool preintegrated = scene_.quality.preintegrated;
+    if (!preintegrated) {
+      uniforms_ += fmt::format("float value{};\n", i);  // of the segment classified last
+      classify_ += fmt::format("  value{} = middle;\n", i);
+    }
+    classify_ +=
+        fmt::format("  extinction{} = {};\n", i,
+                    widgetsShow(function, "kept_" + rows, preintegrated ? "front.value" : "middle",
+                                preintegrated ? "back.value" : "middle"));
+    beyond_ += i == 0 ? "0.0" : " + 0.0";  // steep functions, as this is, do without
+    total_ += fmt::format("{}extinction{}", i == 0 ? "" : " + ", i);
+    return i;
+  }
+
+  /// The layer's extinction and colour, now that its gradient is known.
+  void addWidgets(std::size_t layer, std::size_t number, const std::string& magnitude) {
+    const bool preintegrated = scene_.quality.preintegrated;
+    const std::string middle = fmt::format("value{}", number);
+    body_ +=
+        sumWidgets(scene_.layers[layer].transferFunction, "kept_" + widgetsUniform(layer),
+                   preintegrated ? "front.value" : middle, preintegrated ? "back.value" : middle,
+                   fmt::format("min({}, 1.0)", magnitude));
+    body_ += fmt::format(
+        "    extinction{} = widgetSum.a;\n"
+        "    vec3 widgetColour = widgetSum.rgb * (1.0 / max(widgetSum.a, 1e-30));\n",
+        number);
+  }
+
   /// Of a segment. A mean weighted by the layer's extinction is nothing where only lines show, and
   /// little but rounding beside it.
   std::string colourOf(std::size_t i, bool ownLines) const {
@@ -222,12 +272,19 @@ class LayerCode {
     });
   }
 
-  void addSurface(std::size_t i, const Layer& layer) {
+  /// Expression of the gradient's magnitude over the layer's scale.
+  std::string magnitudeOf(std::size_t i, const Layer& layer) {
+    const std::string unit = keepUniform("float", magnitudeUniform(i), uniforms_, prepare_);
+    return fmt::format("{}Magnitude * {}", gradientName(gradientOperator(layer)), unit);
+  }
+
+  /// `magnitude`: magnitudeOf() if that was asked for before, else empty.
+  void addSurface(std::size_t i, const Layer& layer, std::string magnitude) {
     const std::string floor =
         keepUniform("float", parameterUniform(i, "gradient", "noise_floor"), uniforms_, prepare_);
-    const std::string unit = keepUniform("float", magnitudeUniform(i), uniforms_, prepare_);
-    body_ += fmt::format("    Surface g = surfaceOf({0}, {0}Magnitude * {1}, {2}, {3}, toEye);\n",
-                         gradientName(gradientOperator(layer)), unit, floor,
+    if (magnitude.empty()) magnitude = magnitudeOf(i, layer);
+    body_ += fmt::format("    Surface g = surfaceOf({}, {}, {}, {}, toEye);\n",
+                         gradientName(gradientOperator(layer)), magnitude, floor,
                          normalOrientation(layer.style("gradient")));
     if (hasCaps_)
       body_ += fmt::format("    Surface cut = cutSurface(g, cap, {});\n",
@@ -356,6 +413,9 @@ std::string visibleBinsUniform(std::size_t function) {
 std::string magnitudeUniform(std::size_t layer) {
   return fmt::format("magnitude{}", layer);
 }
+std::string widgetsUniform(std::size_t layer) {
+  return fmt::format("widgets{}", layer);
+}
 
 std::vector<ClipPlane> cappedPlanes(const Scene& scene) {
   const auto seesCuts = [](const StyleSettings& s) { return findStyle(s.name)->seesCuts; };
@@ -397,6 +457,7 @@ std::string programHead(const Scene& scene, const ProgramOptions& options,
   if (needsNeighbourhood(gradientOperatorsNeeded(scene)))
     text += "#include \"neighbourhood.glsl\"\n";
   if (scene.quality.preintegrated) text += "#include \"preintegration.glsl\"\n";
+  if (hasWidgets(scene)) text += "#include \"widgets.glsl\"\n";
   return text + LayerCode{scene, pass}.text();
 }
 

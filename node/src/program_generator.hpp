@@ -53,6 +53,7 @@ std::string curveUniform(std::size_t layer, std::string_view style, std::string_
 /// vec4: the position that the style depends on is dot(xyz, p) + w, p in centred index space.
 std::string placeUniform(std::size_t layer, std::string_view style);
 std::string magnitudeUniform(std::size_t layer);  ///< m = |gradient| * this
+std::string widgetsUniform(std::size_t layer);    ///< vec4 array: widgetRows()
 
 /// Those of a transfer function, by its number in transferFunctions().
 std::string transferUniform(std::size_t function);       ///< sampler1DArray

@@ -7,6 +7,7 @@
 #include "curve_code.hpp"
 #include "program_generator.hpp"
 #include "transfer_textures.hpp"
+#include "widget_code.hpp"
 
 namespace burin::node {
 namespace {
@@ -166,8 +167,10 @@ void setSceneUniforms(const GlProgram& program, const Scene& scene, const Progra
   for (std::size_t i = 0; i < tables.size(); ++i)
     setTransferUniforms(program, tables[i], volume.scale, i,
                         firstTransferUnit + kUnitsPerFunction * static_cast<GLuint>(i));
-  for (std::size_t i = 0; i < scene.layers.size(); ++i)
+  for (std::size_t i = 0; i < scene.layers.size(); ++i) {
     setStyleUniforms(program, scene.layers[i], volume.gradients, i);
+    program.set(widgetsUniform(i), widgetRows(scene.layers[i].transferFunction, volume.scale));
+  }
 }
 
 void setViewUniforms(const GlProgram& program, const Scene& scene, const Camera& camera,

@@ -66,6 +66,7 @@ struct ReferenceRenderer::State {
   ReferenceVolume volume;
   std::optional<ReferenceLaplacian> laplacian;  ///< if a layer needs it
   std::vector<ReferenceLayer> layers;
+  bool isByValue;  ///< no transfer function is two-dimensional
   double stepWorld;
 };
 
@@ -73,6 +74,9 @@ ReferenceRenderer::State::State(const Scene& givenScene, BrickSource& source,
                                 const ReferenceScales& scales)
     : scene{givenScene},
       volume{source},
+      isByValue{std::ranges::none_of(
+          scene.layers,
+          [](const Layer& layer) { return layer.transferFunction.isTwoDimensional(); })},
       stepWorld{scene.quality.stepVoxels * volume.grid().smallestSpacing()} {
   ReferenceGradientScale scale{volume, scales.gradients};
   for (const Layer& layer : scene.layers) layers.emplace_back(layer, scale);
@@ -95,14 +99,22 @@ Classified ReferenceRenderer::State::sampleOf(const glm::dvec3& begin, const glm
   if (laplacian) place.laplacian = laplacian->at(index);
   PerGradientOperator<std::optional<glm::dvec3>> gradients;  // of the volume: for all layers
   for (const ReferenceLayer& layer : layers) {
-    const ReferenceClass classes =
-        preintegrated ? layer.classify(front, back) : layer.classify(*value);
+    const auto lookAround = [&] {
+      std::optional<glm::dvec3>& gradient = gradients[layer.gradientOperatorUsed()];
+      if (layer.needsGradient() && !gradient)
+        gradient = volume.gradientAt(index, layer.gradientOperatorUsed());
+      place.gradient = gradient.value_or(glm::dvec3{0});
+    };
+    ReferenceClass classes;
+    if (layer.isTwoDimensional()) {
+      lookAround();
+      classes = layer.classify(front, back, place.gradient);
+    } else {
+      classes = preintegrated ? layer.classify(front, back) : layer.classify(*value);
+    }
     // No style adds extinction where the transfer functions give none.
     if (!classes.shows()) continue;
-    std::optional<glm::dvec3>& gradient = gradients[layer.gradientOperatorUsed()];
-    if (layer.needsGradient() && !gradient)
-      gradient = volume.gradientAt(index, layer.gradientOperatorUsed());
-    place.gradient = gradient.value_or(glm::dvec3{0});
+    lookAround();
     const Classified sample = layer.shade(classes, place, view);
     mixture.colour += sample.extinction * sample.colour;
     mixture.extinction += sample.extinction;
@@ -160,11 +172,11 @@ bool ReferenceRenderer::State::meetsNan(const Path& path, double begin, double e
 }
 
 /// A piece whose value rises or falls all the way, so that pre-integrated halves see the same
-/// values as the `whole`: one that shows nothing is nothing.
+/// values as the `whole`: one that shows nothing is nothing, unless its parts' gradients count too.
 Span ReferenceRenderer::State::halved(const Path& path, double begin, double end, const Span& whole,
                                       double allowed, int halvings) const {
   const bool isMixed = meetsNan(path, begin, end);
-  if (scene.quality.preintegrated && whole.opacity <= 0 && !isMixed) return whole;
+  if (isByValue && scene.quality.preintegrated && whole.opacity <= 0 && !isMixed) return whole;
   const double middle = begin + (end - begin) / 2;
   const Span front = segment(path, begin, middle);
   const Span back = segment(path, middle, end);

@@ -25,6 +25,7 @@ ReferenceLayer::ReferenceLayer(const Layer& layer, ReferenceGradientScale& scale
     : transferFunction_{layer.transferFunction},
       unitLength_{transferFunction_.opacityUnitLength.value()},
       means_{transferFunction_, unitLength_} {
+  if (transferFunction_.isTwoDimensional()) widgets_.emplace(transferFunction_, unitLength_);
   if (!layer.lineOpacity.empty()) {
     lineFunction_.emplace();
     for (const OpacityPoint& point : layer.lineOpacity)
@@ -38,8 +39,8 @@ ReferenceLayer::ReferenceLayer(const Layer& layer, ReferenceGradientScale& scale
 }
 
 bool ReferenceLayer::needsGradient() const {
-  return surface_ || boundary_ || silhouette_ || light_ || tone_ || toon_ || edges_ || specular_ ||
-         lineSurface_;
+  return widgets_ || surface_ || boundary_ || silhouette_ || light_ || tone_ || toon_ || edges_ ||
+         specular_ || lineSurface_;
 }
 
 ReferenceLayer::Direction ReferenceLayer::directionOf(const StyleSettings& settings) {
@@ -111,6 +112,13 @@ ReferenceClass ReferenceLayer::classify(double front, double back) const {
           lineMeans_->between(front, back).extinction};
 }
 
+ReferenceClass ReferenceLayer::classify(double front, double back,
+                                        const glm::dvec3& gradient) const {
+  const Classified mean = widgets_->between(front, back, magnitudeOf(gradient));
+  if (!lineFunction_) return {mean, mean.extinction};
+  return {mean, lineMeans_->between(front, back).extinction};
+}
+
 Classified ReferenceLayer::shade(const ReferenceClass& classes, const ReferencePlace& place,
                                  const ReferenceView& view) const {
   const ReferenceFacing at = needsGradient() ? facing(place.gradient, view) : ReferenceFacing{};
@@ -141,10 +149,14 @@ double ReferenceLayer::Direction::position(const glm::dvec3& world,
   return byView ? view.extent.depth(world) : view.extent.along(world, axis);
 }
 
+double ReferenceLayer::magnitudeOf(const glm::dvec3& gradient) const {
+  return gradientScale_ > 0 ? std::min(glm::length(gradient) / gradientScale_, 1.0) : 0.0;
+}
+
 ReferenceFacing ReferenceLayer::facing(const glm::dvec3& gradient,
                                        const ReferenceView& view) const {
   ReferenceFacing at;
-  if (gradientScale_ > 0) at.magnitude = std::min(glm::length(gradient) / gradientScale_, 1.0);
+  at.magnitude = magnitudeOf(gradient);
   at.confidence = smoothstep(noiseFloor_, 2 * noiseFloor_, at.magnitude);
   at.normal = orientedNormal(unitOrZero(gradient), view);
   return at;

@@ -9,6 +9,7 @@
 #include "reference_mean_class.hpp"
 #include "reference_tone.hpp"
 #include "reference_view.hpp"
+#include "reference_widgets.hpp"
 
 namespace burin::node {
 
@@ -40,6 +41,9 @@ class ReferenceLayer {
   /// The transfer function alone: of one value, or the mean over the values between two.
   ReferenceClass classify(double value) const;
   ReferenceClass classify(double front, double back) const;
+  /// Whether classes depend on the gradient too; then only this one says them.
+  bool isTwoDimensional() const { return widgets_.has_value(); }
+  ReferenceClass classify(double front, double back, const glm::dvec3& gradient) const;
 
   /// What the styles make of it.
   Classified shade(const ReferenceClass& classes, const ReferencePlace& place,
@@ -93,6 +97,8 @@ class ReferenceLayer {
   void readLineStyles(const Layer& layer);
   void readGradientSettings(const Layer& layer, ReferenceGradientScale& scale);
 
+  /// m of a gradient in world units.
+  double magnitudeOf(const glm::dvec3& gradient) const;
   ReferenceFacing facing(const glm::dvec3& gradient, const ReferenceView& view) const;
   /// The unit normal of a surface, `inward`: unit, into its material, or zero.
   glm::dvec3 orientedNormal(const glm::dvec3& inward, const ReferenceView& view) const;
@@ -114,6 +120,7 @@ class ReferenceLayer {
   TransferFunction transferFunction_;
   double unitLength_;
   ReferenceMeanClass means_;
+  std::optional<ReferenceWidgets> widgets_;
   std::optional<TransferFunction> lineFunction_;  ///< pass II's own
   std::optional<ReferenceMeanClass> lineMeans_;
   GradientOperator operator_ = GradientOperator::kCentral;

@@ -135,11 +135,30 @@ class Maker {
     }
     if (chance()) made.transferFunction.points.push_back({values.back(), colour(), 1});
     made.transferFunction.opacityUnitLength = maybe(positive());
-    if (chance())
+    if (whole(0, 3) == 0) {
+      made.transferFunction.points.clear();
+      made.transferFunction.widgets = several<TransferWidget>(1, [&] { return widget(); });
+    } else if (chance())
       for (const double value : values) made.lineOpacity.push_back({value, real(0, 1)});
     for (const StyleSpec& spec : styleTable()) {
       if (chance()) made.styles.push_back(settings(spec));
     }
+    return made;
+  }
+
+  TransferWidget widget() {
+    TransferWidget made;
+    const double first = any();
+    made.value = {first, std::nextafter(first, 2 * std::abs(first) + 1) + positive()};
+    made.shape =
+        pick<WidgetShape>({WidgetShape::kTriangle, WidgetShape::kRectangle, WidgetShape::kEllipse});
+    const bool isEllipse = made.shape == WidgetShape::kEllipse;
+    made.gradient = {real(isEllipse ? -1 : 0, 0.4), real(0.5, isEllipse ? 2 : 1)};
+    if (made.shape == WidgetShape::kTriangle) made.apex = maybe(any());
+    if (!isEllipse) made.valueFalloff = maybe(real(kSmallestFalloff, 1));
+    if (!isEllipse) made.gradientFalloff = maybe(real(kSmallestFalloff, 1));
+    made.colour = colour();
+    made.opacity = real(0, 1);
     return made;
   }
 

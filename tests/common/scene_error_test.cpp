@@ -111,6 +111,37 @@ TEST(SceneError, MissingKeys) {
             "s.json:1:35: layers[0]: 'transfer_function' is missing");
 }
 
+TEST(SceneError, TwoDimensionalTransferFunctions) {
+  const auto about = [](const std::string& keys) {
+    return complaint(R"({ "schema_version": 1, "layers": [{ "transfer_function":
+{)" + keys + "} }] }");
+  };
+  const auto aboutWidget = [&](const std::string& keys) {
+    return about(R"("widgets": [{ "color": "#fff", "opacity": 1, )" + keys + "}]");
+  };
+  EXPECT_EQ(aboutWidget(R"("shape": "triangle", "value": [0, 1], "apex": 0.5)"), "");
+  EXPECT_EQ(aboutWidget(R"("shape": "ellipse", "value": [0, 1], "gradient": [-0.2, 0.2])"), "");
+  EXPECT_THAT(about(""), HasSubstr("s.json:2:1: layers[0].transfer_function: expected exactly one "
+                                   "of 'points' and 'widgets'"));
+  EXPECT_THAT(about(R"("widget": [])"), HasSubstr("did you mean 'widgets'?"));
+  EXPECT_THAT(aboutWidget(R"("shape": "triangel", "value": [0, 1])"),
+              HasSubstr("'triangel' is unknown; did you mean 'triangle'?"));
+  EXPECT_THAT(aboutWidget(R"("shape": "rectangle", "value": [1, 1])"),
+              HasSubstr("widgets[0].value: expected rising values"));
+  EXPECT_THAT(aboutWidget(R"("shape": "rectangle", "value": [0, 1], "falloff": 1)"),
+              HasSubstr("widgets[0].falloff: unknown key"));
+  EXPECT_THAT(aboutWidget(R"("shape": "rectangle", "value": [0, 1], "apex": 0.5)"),
+              HasSubstr("widgets[0].apex: only a triangle has an apex"));
+  EXPECT_THAT(aboutWidget(R"("shape": "ellipse", "value": [0, 1], "value_falloff": 0.5)"),
+              HasSubstr("widgets[0].value_falloff: an ellipse falls off from its middle"));
+  EXPECT_THAT(aboutWidget(R"("shape": "triangle", "value": [0, 1], "gradient": [0, 1.5])"),
+              HasSubstr("widgets[0].gradient: expected numbers in [0, 1]"));
+  EXPECT_THAT(complaint(R"({ "schema_version": 1, "layers": [{ "transfer_function":
+{ "widgets": [{ "shape": "rectangle", "value": [0, 1], "color": "#fff", "opacity": 1 }] },
+"line_opacity": [{ "value": 0, "opacity": 1 }] }] })"),
+              HasSubstr("'line_opacity' is by value alone"));
+}
+
 TEST(SceneError, OtherVersions) {
   EXPECT_EQ(complaint("{ \"schema_version\": 2 }"),
             "s.json:1:21: schema_version: 2 is unknown; this program reads 1");

@@ -122,5 +122,84 @@ TEST(LargestExtinction, AgreesWithBruteForce) {
   }
 }
 
+TEST(TransferWidget, TrianglesStandOnTheirApex) {
+  const TransferWidget t{
+      .shape = WidgetShape::kTriangle, .value = {10, 30}, .gradient = {0.1, 0.9}};
+  // Half way up, between 15 and 25, falling from the middle to the edges.
+  EXPECT_DOUBLE_EQ(t.weight(20, 0.45), 1);
+  EXPECT_DOUBLE_EQ(t.weight(17.5, 0.45), 0.5);
+  EXPECT_DOUBLE_EQ(t.weight(24, 0.45), 0.2);
+  EXPECT_EQ(t.weight(14.9, 0.45), 0);
+  // A quarter of half of 0.8 from either end of m.
+  EXPECT_DOUBLE_EQ(t.weight(20, 0.15), 0.5);
+  EXPECT_DOUBLE_EQ(t.weight(20, 0.85), 0.5);
+  EXPECT_EQ(t.weight(20, 0.1), 0);
+  EXPECT_EQ(t.weight(20, 0.95), 0);
+  TransferWidget leaning = t;
+  leaning.apex = 0;
+  leaning.gradient = {0, 1};
+  EXPECT_DOUBLE_EQ(leaning.weight(10, 0.5), 1);  // between 5 and 15
+  EXPECT_DOUBLE_EQ(leaning.weight(20, 1), 1);    // no edge at 1
+  EXPECT_EQ(leaning.weight(0, 0), 0);            // but at 0
+  EXPECT_EQ(leaning.valueRange(), (glm::dvec2{0, 30}));
+}
+
+TEST(TransferWidget, RectanglesGoOnBeyondZeroAndOne) {
+  TransferWidget r{.value = {10, 30}, .gradient = {0, 1}, .valueFalloff = 0.5};
+  for (const double m : {0.0, 0.5, 1.0}) {
+    EXPECT_DOUBLE_EQ(r.weight(16, m), 1);
+    EXPECT_DOUBLE_EQ(r.weight(12, m), 0.4);
+    EXPECT_EQ(r.weight(31, m), 0);
+  }
+  r.gradient = {0.2, 0.6};
+  EXPECT_EQ(r.weight(20, 0), 0);
+  EXPECT_DOUBLE_EQ(r.weight(20, 0.225), 0.5);
+  EXPECT_DOUBLE_EQ(r.weight(20, 0.575), 0.5);
+  EXPECT_EQ(r.weight(20, 1), 0);
+}
+
+TEST(TransferWidget, EllipsesFallOffSmoothly) {
+  const TransferWidget e{
+      .shape = WidgetShape::kEllipse, .value = {10, 30}, .gradient = {-0.4, 0.4}};
+  EXPECT_DOUBLE_EQ(e.weight(20, 0), 1);
+  EXPECT_DOUBLE_EQ(e.weight(25, 0), 0.75 * 0.75);
+  EXPECT_DOUBLE_EQ(e.weight(25, 0.2), 0.25);
+  EXPECT_EQ(e.weight(30, 0), 0);
+  EXPECT_EQ(e.weight(20, 0.5), 0);
+  // u² = 1 - 0.75² at the edges.
+  EXPECT_NEAR(e.edgesAt(0.3).y, 20 + 10 * std::sqrt(1 - 0.5625), 1e-13);
+}
+
+TEST(TransferFunction, WidgetsAreSimultaneousMedia) {
+  TransferFunction f;
+  f.widgets = {{.value = {0, 10}, .colour = kWhite, .opacity = 0.5},
+               {.value = {4, 20}, .colour = kBlack, .opacity = 0.75}};
+  EXPECT_DOUBLE_EQ(f.classify(2, 0.5, 2).extinction, std::log(2) / 2);
+  const Classified both = f.classify(7, 0.5, 2);
+  EXPECT_DOUBLE_EQ(both.extinction, (std::log(2) + std::log(4)) / 2);
+  EXPECT_DOUBLE_EQ(both.colour.r, 1.0 / 3);
+  EXPECT_EQ(f.classify(-1, 0.5, 2).extinction, 0);
+}
+
+TEST(TransferFunction, AnEnvelopeIsAboveZeroWhereWidgetsMayShow) {
+  TransferFunction f;
+  f.widgets = {{.value = {5, 6}, .opacity = 0.5},
+               {.shape = WidgetShape::kTriangle, .value = {1, 2}, .apex = 3, .opacity = 0.1},
+               {.value = {5.5, 8}, .opacity = 0.2},
+               {.value = {9, 10}, .opacity = 0}};
+  const TransferFunction e = f.envelope();
+  for (const double value : {1.0, 1.5, 2.99, 5.0, 7.99}) {
+    EXPECT_GT(e.classify(value, 1).extinction, 0) << value;
+  }
+  for (const double value : {-1.0, 0.99, 3.01, 4.99, 8.01, 9.5}) {
+    EXPECT_EQ(e.classify(value, 1).extinction, 0) << value;
+  }
+  EXPECT_EQ(f.largestExtinction(3.5, 4.5, 1), 0);
+  EXPECT_GT(f.largestExtinction(2.5, 4.5, 1), 0);
+  f.widgets.resize(1);
+  f.widgets[0].opacity = 0;
+  EXPECT_EQ(f.largestExtinction(-kInfinity, kInfinity, 1), 0);
+}
+
 }  // namespace
 }  // namespace burin

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "burin/host/text.hpp"
+
 namespace burin::host {
 namespace {
 
@@ -225,6 +227,25 @@ TEST(Orientation, ArrowsAreDrawnThere) {
   EXPECT_LT(std::abs(toRed.y), 3);
   EXPECT_LT(toBlue.y, -5);
   EXPECT_LT(std::abs(toBlue.x), 3);
+}
+
+TEST(Legend, ShowsWidgetsByValueAndGradient) {
+  Shot made = shot({400, 300});
+  TransferFunction& function = made.scene.layers[0].transferFunction;
+  function.points.clear();
+  function.widgets = {
+      {.value = {0, 100}, .gradient = {0, 0.5}, .colour = {255, 0, 0}, .opacity = 1}};
+  made.scene.annotations.hasLegend = true;
+  made.take();
+  const auto places = made.annotated();
+  ASSERT_EQ(places.size(), 1u);
+  // Below a line of text, three lines high: the rectangle is in its lower half.
+  const int x = places[0].x + places[0].width / 2;
+  const int top = places[0].y + textHeight(9);
+  EXPECT_TRUE(made.isPaper(x, top + 27 / 4));
+  const auto* red = &made.picture.bytes[3 * static_cast<std::size_t>((top + 27 * 3 / 4) * 400 + x)];
+  EXPECT_GE(red[0], 254);
+  EXPECT_LE(red[1], 1);
 }
 
 }  // namespace

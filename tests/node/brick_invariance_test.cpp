@@ -162,7 +162,7 @@ TEST(BrickInvariance, SameLayoutTwiceIsBitIdentical) {
 
 TEST(BrickInvariance, OneGhostLayerLessThanDeclaredShows) {
   ArraySource source = smoothVolume(gridOf({40, 40, 40}));
-  for (const char* style : {"light", "sobel", "regression", "laplacian"}) {
+  for (const char* style : {"light", "sobel", "regression", "laplacian", "widgets"}) {
     const Scene scene = resolved(sceneWithStyle(style), source);
     const int less = ghostLayersNeeded(scene) - 1;
     const Camera camera = resolveCamera(scene, {source.info().grid, false});

@@ -65,7 +65,8 @@ TEST(ProgramGenerator, GhostLayersAreThoseOfTheStylesUsed) {
   for (const std::string& name : test::drawnStyles()) {
     Scene scene = sceneWithStyle(name);
     scene.quality.preintegrated = false;
-    int most = 0;
+    const bool byGradient = scene.layers[0].transferFunction.isTwoDimensional();
+    int most = byGradient ? 1 : 0;
     for (const StyleSettings& style : scene.layers[0].styles)
       most = std::max(most, findStyle(style.name)->ghostLayers);
     EXPECT_EQ(ghostLayersNeeded(scene), most) << name;
@@ -80,6 +81,25 @@ TEST(ProgramGenerator, ValuesDoNotChangeTheText) {
       if (auto* number = std::get_if<double>(&value)) *number *= 0.5;
   scene.layers[0].transferFunction.points.pop_back();
   EXPECT_EQ(generateRaycastProgram(scene, {}).text, before);
+}
+
+TEST(ProgramGenerator, WidgetsAreUniformsOfTheLayersThatHaveThem) {
+  Scene scene = sceneWithStyle("light");
+  EXPECT_THAT(generateRaycastProgram(scene, {}).text, Not(HasSubstr("widget")));
+  scene.layers.push_back(sceneWithStyle("widgets").layers[0]);
+  const std::string before = generateRaycastProgram(scene, {}).text;
+  EXPECT_THAT(before, HasSubstr("uniform vec4 widgets1[12]"));
+  EXPECT_THAT(before, Not(HasSubstr("transfer1")));
+  std::vector<TransferWidget>& widgets = scene.layers[1].transferFunction.widgets;
+  widgets[0].value = {0.1, 0.2};
+  widgets[0].gradient = {0.3, 0.4};
+  widgets[0].shape = WidgetShape::kRectangle;  // as a triangle, another trapezoid
+  widgets[1].colour = {1, 2, 3};
+  widgets[1].opacity = 0;
+  widgets[2].valueFalloff.reset();
+  EXPECT_EQ(generateRaycastProgram(scene, {}).text, before);
+  widgets.pop_back();
+  EXPECT_NE(generateRaycastProgram(scene, {}).text, before);
 }
 
 TEST(ProgramGenerator, EveryPairOfStylesCompiles) {

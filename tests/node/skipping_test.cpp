@@ -28,6 +28,18 @@ TransferFunction randomTransferFunction(std::mt19937& random) {
   return function;
 }
 
+/// The same regions of value and gradient elsewhere, and others of them opaque.
+TransferFunction randomWidgets(std::mt19937& random) {
+  std::uniform_real_distribution<double> unit{0, 1};
+  TransferFunction function = gentleWidgets();
+  for (TransferWidget& widget : function.widgets) {
+    widget.value = 0.9 * unit(random) + glm::dvec2{0, 0.02 + 0.2 * unit(random)};
+    widget.opacity = unit(random) < 0.3 ? 0 : 0.9 * unit(random);
+    if (widget.apex) widget.apex = widget.value.x + 0.1 * unit(random) - 0.05;
+  }
+  return function;
+}
+
 /// What decides a program: every style with each of these, so that few programs are compiled.
 struct Kind {
   int layers;
@@ -42,7 +54,10 @@ Scene randomScene(const std::string& style, const Kind& kind, std::mt19937& rand
   Scene scene = sceneWithStyle(style);
   scene.imageSize = {48, 40};
   scene.layers.resize(static_cast<std::size_t>(kind.layers), scene.layers.front());
-  for (Layer& layer : scene.layers) layer.transferFunction = randomTransferFunction(random);
+  for (Layer& layer : scene.layers)
+    layer.transferFunction = layer.transferFunction.isTwoDimensional()
+                                 ? randomWidgets(random)
+                                 : randomTransferFunction(random);
   scene.quality.termination = unit(random) < 0.5 ? 0 : 0.002;
   scene.quality.preintegrated = kind.preintegrated;
   scene.quality.stepVoxels = 0.3 + 1.5 * unit(random);

@@ -38,6 +38,30 @@ inline TransferFunction gentleTransferFunction(double scale = 1) {
           std::nullopt};
 }
 
+/// A two-dimensional one over [0, 1], one region of each shape, each overlapping the others.
+inline TransferFunction gentleWidgets() {
+  TransferFunction function;
+  function.widgets = {{.shape = WidgetShape::kTriangle,
+                       .value = {0.3, 0.8},
+                       .gradient = {0.05, 1},
+                       .apex = 0.5,
+                       .gradientFalloff = 0.5,
+                       .colour = {20, 60, 200},
+                       .opacity = 0.3},
+                      {.shape = WidgetShape::kRectangle,
+                       .value = {0.55, 1.1},
+                       .gradient = {0, 0.7},
+                       .valueFalloff = 0.5,
+                       .colour = {230, 60, 30},
+                       .opacity = 0.25},
+                      {.shape = WidgetShape::kEllipse,
+                       .value = {0, 0.6},
+                       .gradient = {0.1, 1.3},
+                       .colour = {240, 200, 40},
+                       .opacity = 0.2}};
+  return function;
+}
+
 /// Opacities for lines: most where gentleTransferFunction() shows nothing, and gaps where it does.
 inline std::vector<OpacityPoint> gentleLineOpacity() {
   return {{0.1, 0}, {0.25, 0.3}, {0.4, 0.05}, {0.5, 0}, {0.6, 0}, {0.8, 0.2}};
@@ -51,8 +75,8 @@ inline StyleSettings gradientBy(const std::string& gradientOperator) {
 }
 
 /// One layer, that style alone (none for "plain"; of "line_opacity", which is a layer's own, and
-/// "line_surface" with lines; of a gradient operator's name: light and edges by it), at 72×56
-/// pixels, no termination.
+/// "line_surface" with lines; of a gradient operator's name: light and edges by it; of "widgets", a
+/// transfer function of these and edges), at 72×56 pixels, no termination.
 inline Scene sceneWithStyle(const std::string& style) {
   Scene scene;
   scene.volume.procedural = "homogeneous";  // the source is given separately
@@ -67,6 +91,9 @@ inline Scene sceneWithStyle(const std::string& style) {
     layer.lineOpacity = gentleLineOpacity();
     for (const char* lines : {"edges", "specular"})
       layer.styles.push_back(defaultSettings(*findStyle(lines)));
+  } else if (style == "widgets") {
+    layer.transferFunction = gentleWidgets();
+    layer.styles.push_back(defaultSettings(*findStyle("edges")));
   } else if (style == "line_surface") {
     for (const char* lines : {"edges", "line_surface"})
       layer.styles.push_back(defaultSettings(*findStyle(lines)));
@@ -84,13 +111,13 @@ inline Scene sceneWithStyle(const std::string& style) {
   return scene;
 }
 
-/// Every style that draws, "plain", "all", "line_opacity" and the gradient operators that are no
-/// default.
+/// Every style that draws, "plain", "all", "line_opacity", the gradient operators that are no
+/// default, and "widgets".
 inline std::vector<std::string> drawnStyles() {
   std::vector<std::string> names{"plain", "all", "line_opacity"};
   for (const StyleSpec& spec : styleTable())
     if (spec.hasSnippet) names.emplace_back(spec.name);
-  names.insert(names.end(), {"sobel", "regression"});
+  names.insert(names.end(), {"sobel", "regression", "widgets"});
   return names;
 }
 

@@ -73,7 +73,8 @@ TransferFunction transferFunctionFrom(const ColourMap& map,
 /// properties, .vp and .vp.json. Throws Error{kUsage} with the place in the file.
 ColourMap readColourMap(const std::filesystem::path& file, std::string_view map = {});
 
-/// As ParaView imports it: one map in its RGB space, with opacities.
+/// As ParaView imports it: one map in its RGB space, with opacities. Throws Error{kUsage} for a
+/// two-dimensional function.
 std::string paraviewJson(const TransferFunction& function, std::string_view name);
 
 }  // namespace burin

@@ -177,16 +177,16 @@ inline constexpr double kCapVoxels = 1;
 /// Unit world direction to the light.
 glm::dvec3 lightDirectionWorld(const Light& light, const Camera& camera);
 
-/// Largest ghost width that any layer's styles declare or that the ends of pre-integrated segments
-/// need; 0 if nothing looks beyond a brick's own cells.
+/// Largest ghost width that any layer's styles declare, two-dimensional transfer functions take or
+/// that the ends of pre-integrated segments need; 0 if nothing looks beyond a brick's own cells.
 int ghostLayersNeeded(const Scene& scene);
-/// What a scene looks up by value: the transfer function of each layer, followed by that of its
-/// lines (black) if it has line opacities.
+/// What a scene looks up by value: the transfer function of each layer (the envelope of a
+/// two-dimensional one), followed by that of its lines (black) if it has line opacities.
 std::vector<TransferFunction> transferFunctions(const Scene& scene);
 /// The operator that a layer's gradients are made with, whether any of its styles needs them or
 /// not.
 GradientOperator gradientOperator(const Layer& layer);
-/// Those of the layers that need gradients.
+/// Those of the layers that need gradients: for styles or a two-dimensional transfer function.
 GradientOperatorSet gradientOperatorsNeeded(const Scene& scene);
 /// Whether any layer needs gradients.
 bool gradientNeeded(const Scene& scene);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "burin/common/colour.hpp"
+#include "burin/common/transfer_widget.hpp"
 
 namespace burin {
 
@@ -26,13 +27,23 @@ inline constexpr double kLargestOpacity = 0.9999;
 
 /// Piecewise linear between points, in linear RGB and in opacity; the end values hold outside.
 /// Points are sorted by value; two points at one value make a step (the later holds at the value).
+/// Or two-dimensional: widgets over value and gradient magnitude, and no points.
 struct TransferFunction {
   std::vector<TransferPoint> points;
   std::optional<double> opacityUnitLength;  ///< world units; unset: the smallest spacing
+  std::vector<TransferWidget> widgets = {};
 
-  /// Exact evaluation in double. `unitLength`: opacityUnitLength, resolved.
+  bool isTwoDimensional() const { return !widgets.empty(); }
+  /// Exact evaluation in double, of points. `unitLength`: opacityUnitLength, resolved.
   Classified classify(double value, double unitLength) const;
-  /// Largest extinction over the closed interval [lo, hi] of values, exact.
+  /// The same of widgets; `magnitude`: m in [0, 1]. Colours are mixed by extinction, black where
+  /// there is none.
+  Classified classify(double value, double magnitude, double unitLength) const;
+  /// Of widgets, a function of points that is above 0 between values where any of them shows at
+  /// some m, and 0 elsewhere: what can be told of a value alone.
+  TransferFunction envelope() const;
+  /// Largest extinction over the closed interval [lo, hi] of values, exact of points; of widgets
+  /// above 0 only where they may show something.
   double largestExtinction(double lo, double hi, double unitLength) const;
   friend bool operator==(const TransferFunction&, const TransferFunction&) = default;
 };
