@@ -81,7 +81,20 @@ if(BURIN_SANITIZE MATCHES "address" AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   list(APPEND BURIN_COLD_OPTIONS ${BURIN_CHECKS_AS_CALLS})
 endif()
 
-# burin_cold_sources(SOURCE …): compiles these files of a library so.
+# burin_cold_sources(SOURCE …): compiles these files of a library so, each by itself (CMake takes files with
+# options of their own out of unity builds).
 function(burin_cold_sources)
   set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "${BURIN_COLD_OPTIONS}")
+endfunction()
+
+# burin_cold_objects(NAME SOURCES … LIBRARIES …): compiles these files so, together in unity builds. A
+# library takes them up with $<TARGET_OBJECTS:burin_NAME>.
+function(burin_cold_objects name)
+  cmake_parse_arguments(arg "" "" "SOURCES;LIBRARIES" ${ARGN})
+  add_library(burin_${name} OBJECT ${arg_SOURCES})
+  target_include_directories(burin_${name} PRIVATE include src)
+  target_compile_options(burin_${name} PRIVATE ${BURIN_COLD_OPTIONS})
+  target_link_libraries(burin_${name} PRIVATE ${arg_LIBRARIES} burin_warnings)
+  burin_use_headers(burin_${name} burin_headers)
+  burin_unity(burin_${name})
 endfunction()
