@@ -27,7 +27,8 @@ constexpr CommandEntry kCommands[] = {
     {"info", "Describe a volume", describeInfo},
     {"make-volume", "Write a procedural volume", describeMakeVolume},
     {"styles", "List the styles and their parameters", describeStyles},
-    {"gallery", "Draw a scene in every named style, on one sheet", describeGallery},
+    {"gallery", "Draw a scene in every named style, or several scenes, on one sheet",
+     describeGallery},
     {"colormap", "Convert colour maps of other programs", describeColormap}};
 
 constexpr CommandEntry kBenchmarks[] = {

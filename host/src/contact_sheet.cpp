@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "burin/common/error.hpp"
 #include "burin/common/scene.hpp"
-#include "burin/host/text.hpp"
 
 namespace burin::host {
 
@@ -19,21 +19,30 @@ constexpr int kFontsPerPanel = 15;
 constexpr Colour kPaper{255, 255, 255};
 constexpr Colour kInk{32, 32, 32};
 
+/// What of the mask is in its first `width` columns.
+InkMask leftPart(const InkMask& mask, int width) {
+  InkMask part{std::min(mask.width, width), mask.height};
+  for (int row = 0; row < part.height; ++row)
+    for (int column = 0; column < part.width; ++column) part.at(column, row) = mask.at(column, row);
+  return part;
+}
+
 }  // namespace
 
 int squareColumns(int count) {
   return std::max(1, static_cast<int>(std::ceil(std::sqrt(static_cast<double>(count)))));
 }
 
-ContactSheet::ContactSheet(ImageSize panel, int count, int columns)
+ContactSheet::ContactSheet(ImageSize panel, int count, int columns, int labelLines)
     : panel_{panel},
       columns_{std::min(columns, count)},
       fontSize_{std::clamp(panel.width / kFontsPerPanel, kSmallestFont, kLargestFont)},
-      labelHeight_{textMask("x", fontSize_).height} {
+      lineHeight_{textMask("x", fontSize_).height},
+      labelLines_{labelLines} {
   const int rows = (count + columns_ - 1) / columns_;
   const long long width = kGap + static_cast<long long>(columns_) * (panel.width + kGap);
   const long long height =
-      kGap + static_cast<long long>(rows) * (panel.height + labelHeight_ + kGap);
+      kGap + static_cast<long long>(rows) * (panel.height + labelLines_ * lineHeight_ + kGap);
   if (std::max(width, height) > kLargestImageSide) {
     fail(ExitCode::kUsage, "a sheet of {} x {} pixels, expected at most {} on a side", width,
          height, kLargestImageSide);
@@ -46,19 +55,38 @@ ContactSheet::ContactSheet(ImageSize panel, int count, int columns)
 void ContactSheet::place(int index, const DisplayPicture& picture, const std::string& label) {
   BURIN_CHECK(picture.size == panel_ && picture.channels == 3);
   const int x = kGap + index % columns_ * (panel_.width + kGap);
-  const int y = kGap + index / columns_ * (panel_.height + labelHeight_ + kGap);
+  const int y = kGap + index / columns_ * (panel_.height + labelLines_ * lineHeight_ + kGap);
   const auto rowBytes = 3 * static_cast<std::ptrdiff_t>(panel_.width);
   for (int row = 0; row < panel_.height; ++row) {
     const auto from = picture.bytes.begin() + row * rowBytes;
     const auto to = 3 * ((y + row) * static_cast<std::ptrdiff_t>(sheet_.size.width) + x);
     std::copy(from, from + rowBytes, sheet_.bytes.begin() + to);
   }
-  InkMask text = textMask(label, fontSize_);
-  InkMask shown{std::min(text.width, panel_.width), text.height};
-  for (int row = 0; row < shown.height; ++row)
-    for (int column = 0; column < shown.width; ++column)
-      shown.at(column, row) = text.at(column, row);
-  drawInk(sheet_, shown, x + (panel_.width - shown.width) / 2, y + panel_.height, kInk);
+  int below = y + panel_.height;
+  for (const InkMask& line : lines(label)) {
+    drawInk(sheet_, line, x + (panel_.width - line.width) / 2, below, kInk);
+    below += lineHeight_;
+  }
+}
+
+std::vector<InkMask> ContactSheet::lines(const std::string& label) const {
+  std::vector<std::string> texts;
+  std::istringstream words{label};
+  for (std::string word; words >> word;) {
+    const std::string longer = texts.empty() ? word : texts.back() + " " + word;
+    if (!texts.empty() && textMask(longer, fontSize_).width <= panel_.width) {
+      texts.back() = longer;
+    } else if (static_cast<int>(texts.size()) < labelLines_) {
+      texts.push_back(word);
+    } else {
+      texts.back() = longer;  // cut off
+      break;
+    }
+  }
+  std::vector<InkMask> masks;
+  for (const std::string& text : texts)
+    masks.push_back(leftPart(textMask(text, fontSize_), panel_.width));
+  return masks;
 }
 
 }  // namespace burin::host

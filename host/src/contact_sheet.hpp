@@ -5,27 +5,31 @@
 
 #include "burin/common/colour.hpp"
 #include "burin/host/picture.hpp"
+#include "burin/host/text.hpp"
 
 namespace burin::host {
 
-/// Pictures of one size in rows from top left, each with a line of text below. 3 channels.
+/// Pictures of one size in rows from top left, each with lines of text below. 3 channels.
 class ContactSheet {
  public:
-  /// Room for `count` panels. Throws Error{kUsage} if the sheet would be larger than a picture may
-  /// be, or if there is no font.
-  ContactSheet(ImageSize panel, int count, int columns);
+  /// Room for `count` panels with labels of so many lines. Throws Error{kUsage} if the sheet would
+  /// be larger than a picture may be, or if there is no font.
+  ContactSheet(ImageSize panel, int count, int columns, int labelLines = 1);
 
-  /// Panel `index` gets that picture (3 channels, of the panel's size) and that label, whose end is
-  /// cut off if it is too long.
+  /// Panel `index` gets that picture (3 channels, of the panel's size) and that label, broken into
+  /// lines between words; what is longer than a line or than all of them is cut off.
   void place(int index, const DisplayPicture& picture, const std::string& label);
 
   const DisplayPicture& picture() const { return sheet_; }
 
  private:
+  std::vector<InkMask> lines(const std::string& label) const;
+
   ImageSize panel_;
   int columns_;
   int fontSize_;
-  int labelHeight_;
+  int lineHeight_;
+  int labelLines_;
   DisplayPicture sheet_;
 };
 

@@ -17,6 +17,8 @@
 
 namespace burin::host {
 
+namespace fs = std::filesystem;
+
 namespace {
 
 /// The named styles that are asked for, in that order; all of them if none is.
@@ -53,33 +55,37 @@ Scene inStyle(Scene scene, const NamedStyle& style) {
   return scene;
 }
 
-/// The loop over the styles, on all ranks; rank 0 has the sheet besides.
+/// The loop over the panels, on all ranks; rank 0 has the sheet besides. A panel is a style of the
+/// one input, or one of several inputs.
 class Gallery {
  public:
   Gallery(const Communicator& comm, const GalleryOptions& options)
-      : comm_{comm}, options_{options}, progress_{comm.isRoot() && !options.render.quiet} {
+      : comm_{comm},
+        options_{options},
+        hasInputs_{options.inputs.size() > 1},
+        progress_{comm.isRoot() && !options.render.quiet} {
     onRoot(comm_, [&] { deferInterrupts([&] { checkOutputs(options_.render); }); });
-    std::int64_t count = 0;
-    onRoot(comm_, [&] {
-      styles_ = chosenStyles(options_.styles);
-      count = static_cast<std::int64_t>(styles_.size());
-    });
-    allReduce(comm_, std::span{&count, 1}, MPI_MAX);
-    count_ = static_cast<int>(count);
-    progress_.show("reading the volume");
-    prepared_ = prepareScene(comm_, options_.render);
-    onRoot(comm_, [&] { checkConflicts(options_.render, prepared_.scene.volume.file); });
+    if (hasInputs_) {
+      count_ = static_cast<int>(options_.inputs.size());
+    } else {
+      chooseStyles();
+      progress_.show("reading the volume");
+      prepared_ = prepareScene(comm_, options_.render);
+      unstyled_ = prepared_.scene;
+      onRoot(comm_, [&] { checkConflicts(options_.render, prepared_.scene.volume.file); });
+    }
     onRoot(comm_, [&] {
       loadPictureEncoder();
-      sheet_.emplace(prepared_.scene.imageSize, count_,
-                     options_.columns > 0 ? options_.columns : squareColumns(count_));
+      sheet_.emplace(*options_.render.size, count_,
+                     options_.columns > 0 ? options_.columns : squareColumns(count_),
+                     hasInputs_ ? kTitleLines : 1);
     });
   }
 
   int run() {
     const InterruptWatch watch;
     for (int i = 0; i < count_; ++i) {
-      progress_.show(fmt::format("style {} of {}", i + 1, count_));
+      progress_.show(fmt::format("panel {} of {}", i + 1, count_));
       if (const int signal = drawPanel(i); signal != 0) {
         progress_.clear();
         if (comm_.isRoot()) note("stopped by signal {}", signal);
@@ -92,47 +98,91 @@ class Gallery {
   }
 
  private:
+  static constexpr int kTitleLines = 3;
+
+  void chooseStyles() {
+    std::int64_t count = 0;
+    onRoot(comm_, [&] {
+      styles_ = chosenStyles(options_.styles);
+      count = static_cast<std::int64_t>(styles_.size());
+    });
+    allReduce(comm_, std::span{&count, 1}, MPI_MAX);
+    count_ = static_cast<int>(count);
+  }
+
   /// The signal that some rank got, or 0.
   int drawPanel(int index) {
-    Scene scene = prepared_.scene;
-    onRoot(comm_, [&] { scene = inStyle(scene, styles_[static_cast<std::size_t>(index)]); });
-    const std::string text =
-        broadcastText(comm_, comm_.isRoot() ? writeScene(scene) : std::string{}, Rank{0});
-    together(comm_, "the style", [&] { scene = parseScene(text, "gallery"); });
-    show(scene);
+    const std::string label = hasInputs_ ? showInput(index) : showStyle(index);
+    const Scene& scene = prepared_.scene;
     RankStatistics statistics{};
     const ImageView<const Rgba> frame =
         frames_->make(resolveCamera(scene, prepared_.facts), statistics);
     onRoot(comm_, [&] {
-      const Colour background = scene.background.value_or(Colour{255, 255, 255});
-      sheet_->place(index, toDisplay(frame, background),
-                    styles_[static_cast<std::size_t>(index)].name);
+      sheet_->place(index, toDisplay(frame, scene.background.value_or(Colour{255, 255, 255})),
+                    label);
     });
     std::int64_t signal = interruptSignal();
     allReduce(comm_, std::span{&signal, 1}, MPI_MAX);
     return static_cast<int>(signal);
   }
 
-  /// The volume is loaded for the first style; the others change what they must.
-  void show(const Scene& scene) {
-    if (frames_) return frames_->update(scene);
-    prepared_.scene = scene;
+  /// Draws the scene in that style from now on; returns its label (of rank 0).
+  std::string showStyle(int index) {
+    std::string text;
+    onRoot(comm_, [&] {
+      text = writeScene(inStyle(unstyled_, styles_[static_cast<std::size_t>(index)]));
+    });
+    text = broadcastText(comm_, std::move(text), Rank{0});
+    together(comm_, "the style", [&] { prepared_.scene = parseScene(text, "gallery"); });
+    showScene();
+    return comm_.isRoot() ? styles_[static_cast<std::size_t>(index)].name : "";
+  }
+
+  /// Draws that input from now on; returns its label.
+  std::string showInput(int index) {
+    RenderOptions render = options_.render;
+    render.input = options_.inputs[static_cast<std::size_t>(index)];
+    PreparedScene next = prepareScene(comm_, render);
+    onRoot(comm_, [&] { checkConflicts(render, next.scene.volume.file); });
+    const fs::path input = render.input.empty() ? render.volume : render.input;
+    const std::string label = next.scene.annotations.title.value_or(input.stem().string());
+    if (frames_ && next.scene.volume == prepared_.scene.volume) {
+      prepared_.scene = next.scene;
+    } else {
+      frames_.reset();
+      prepared_ = std::move(next);
+    }
+    showScene();
+    return label;
+  }
+
+  /// A volume is loaded for its first panel; the others change what they must.
+  void showScene() {
+    if (frames_) return frames_->update(prepared_.scene);
     frames_ = makeRaycastFrames(comm_, prepared_, options_.render.worker, options_.render.merge);
   }
 
   void write() const {
-    const std::filesystem::path& target = options_.render.output;
-    writePng(target, sheet_->picture(), metadataFor(prepared_.scene, options_.render, target, 0));
-    note("{}: {} styles, {} x {}", target.string(), count_, sheet_->picture().size.width,
-         sheet_->picture().size.height);
+    const fs::path& target = options_.render.output;
+    PictureMetadata metadata =
+        metadataFor(hasInputs_ ? Scene{} : unstyled_, options_.render, target, 0);
+    if (hasInputs_) {  // each has its own
+      metadata.scene.clear();
+      metadata.stepVoxels.reset();
+    }
+    writePng(target, sheet_->picture(), metadata);
+    note("{}: {} {}, {} x {}", target.string(), count_, hasInputs_ ? "scenes" : "styles",
+         sheet_->picture().size.width, sheet_->picture().size.height);
   }
 
   const Communicator& comm_;
   const GalleryOptions& options_;
+  bool hasInputs_;
   Progress progress_;
   int count_ = 0;
   std::vector<NamedStyle> styles_;  ///< on rank 0
-  PreparedScene prepared_;
+  Scene unstyled_;                  ///< the one input's
+  PreparedScene prepared_;          ///< of the panel that is drawn
   std::unique_ptr<FrameMaker> frames_;
   std::optional<ContactSheet> sheet_;  ///< on rank 0
 };

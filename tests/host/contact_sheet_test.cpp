@@ -93,6 +93,41 @@ TEST(ContactSheet, PlacesPanelsInRows) {
   EXPECT_THROW((ContactSheet{{8000, 8000}, 9, 3}), Error);
 }
 
+/// The darkest red in rows [top, top + rows) of the sheet.
+int darkestIn(const ContactSheet& sheet, int top, int rows) {
+  const auto width = 3 * static_cast<std::ptrdiff_t>(sheet.picture().size.width);
+  const auto first = sheet.picture().bytes.begin() + top * width;
+  return *std::min_element(first, first + rows * width);
+}
+
+TEST(ContactSheet, BreaksLabelsBetweenWords) {
+  const ImageSize panel{90, 10};
+  constexpr int kTop = 4 + 10;  // of the first line
+  const auto labelled = [&](int lines, const std::string& label) {
+    ContactSheet sheet{panel, 1, 1, lines};
+    sheet.place(0, flat(panel, 3, 255), label);
+    return sheet;
+  };
+  const int line = textMask("x", 9).height;
+  EXPECT_EQ(labelled(3, "").picture().size.height - labelled(1, "").picture().size.height,
+            2 * line);
+  const auto lineIsUsed = [&](const ContactSheet& sheet, int index) {
+    return darkestIn(sheet, kTop + index * line, line) < 128;
+  };
+  const ContactSheet two = labelled(3, "one or two words here");
+  EXPECT_TRUE(lineIsUsed(two, 0));
+  EXPECT_TRUE(lineIsUsed(two, 1));
+  EXPECT_FALSE(lineIsUsed(two, 2));
+  const ContactSheet one = labelled(3, "one word");
+  EXPECT_TRUE(lineIsUsed(one, 0));
+  EXPECT_FALSE(lineIsUsed(one, 1));
+  // More than all lines hold is cut off at the panel's sides.
+  const ContactSheet many =
+      labelled(2, "a label of far more words than two lines of text can hold");
+  EXPECT_TRUE(lineIsUsed(many, 1));
+  EXPECT_EQ(darkestIn(many, kTop + 2 * line, 4), 255);
+}
+
 TEST(ContactSheet, IsAboutSquare) {
   EXPECT_EQ(squareColumns(1), 1);
   EXPECT_EQ(squareColumns(12), 4);

@@ -109,6 +109,36 @@ TEST_F(Gallery, AVolumeAloneDrawsEveryStyle) {
   EXPECT_GE((sheet.width - kGap) / (16 + kGap), 4);  // 12 styles or more
 }
 
+TEST_F(Gallery, SeveralInputsAreEachDrawnAsTheyAre) {
+  // A scene, the same volume otherwise, and another volume without a scene.
+  std::string other = kScene;
+  other.replace(other.find("#fff0e0"), 7, "#20c040");
+  std::ofstream{path("other.json")} << other;
+  run({"make-volume", "marschner-lobb", "--dims", "12,12,12", "-o", path("v.nrrd")});
+  const std::vector<std::string> inputs{path("s.json"), path("other.json"), path("v.nrrd")};
+  run({"gallery", inputs[0], inputs[1], inputs[2], "-o", path("sheet.png"), "--columns", "3",
+       "--size", "32x32", "--quiet"},
+      2);
+  const ReadPicture sheet = readPicture(path("sheet.png"));
+  for (int i = 0; i < 3; ++i) {
+    const std::string& input = inputs[static_cast<std::size_t>(i)];
+    SCOPED_TRACE(input);
+    run({"render", input, "-o", path("one.png"), "--size", "32x32", "--quiet"});
+    const ReadPicture one = readPicture(path("one.png"));
+    int worst = 0;
+    for (int y = 0; y < 32; ++y)
+      for (int x = 0; x < 32; ++x)
+        for (int c = 0; c < 3; ++c)
+          worst = std::max(
+              worst, std::abs(one.at(x, y, c) - sheet.at(kGap + i * (32 + kGap) + x, kGap + y, c)));
+    EXPECT_LE(worst, 1);  // as above
+  }
+  const auto both =
+      runBurin({"gallery", inputs[0], inputs[1], "-o", path("x.png"), "--styles", "plain"});
+  EXPECT_EQ(both.exitCode, 2);
+  EXPECT_THAT(onlyLine(both.err), HasSubstr("--styles goes with one INPUT"));
+}
+
 TEST_F(Gallery, MistakesAreOneLineAndLeaveNothing) {
   const auto refused = [&](const std::vector<std::string>& more, int ranks = 0) {
     std::vector<std::string> all{"gallery", path("s.json"), "-o", path("sheet.png")};

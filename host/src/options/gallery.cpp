@@ -13,9 +13,10 @@ constexpr ImageSize kPanel{256, 256};
 constexpr int kMostColumns = 100;
 
 constexpr const char* kGalleryFooter =
-    R"(Every named style (burin styles) on every layer of the scene, with its name below, to choose by
-looking. Then:
-  burin render INPUT --set layers.0.style=NAME -o picture.png)";
+    R"(Of one INPUT: every named style (burin styles) on every layer of the scene, with its name below, to
+choose by looking. Then:
+  burin render INPUT --set layers.0.style=NAME -o picture.png
+Of several: each as burin render draws it, without annotations; its title or else its name is below.)";
 
 struct Gallery {
   GalleryOptions options;
@@ -35,9 +36,12 @@ std::vector<std::string> names(const std::string& list) {
 GalleryOptions finished(const Gallery& gallery, int ranks) {
   GalleryOptions options = gallery.options;
   RenderOptions& render = options.render;
-  if (render.input.empty() && render.volume.empty())
+  if (options.inputs.empty() && render.volume.empty())
     fail(ExitCode::kUsage, "gallery: expected a SCENE or a VOLUME");
-  checkVolumeChoice(render.input, render.volume);
+  for (const std::string& input : options.inputs) checkVolumeChoice(input, render.volume);
+  if (options.inputs.size() > 1 && !gallery.styles.empty())
+    fail(ExitCode::kUsage, "--styles goes with one INPUT, here are {}", options.inputs.size());
+  if (options.inputs.size() == 1) render.input = options.inputs.front();
   if (render.worker.dedicatedHost && ranks == 1)
     fail(ExitCode::kUsage, "--dedicated-host needs two ranks or more, this run has one");
   if (render.output.extension() != ".png")
@@ -53,7 +57,7 @@ GalleryOptions finished(const Gallery& gallery, int ranks) {
 Finish describeGallery(OptionList& list) {
   const auto gallery = std::make_shared<Gallery>();
   RenderOptions& render = gallery->options.render;
-  addInput(list, render.input);
+  list.positionals("INPUT", gallery->options.inputs, "FILE", "Scenes (.json) and volumes");
   list.path("-o,--output", render.output, "FILE.png", "The sheet").required();
   addVolume(list, render.volume);
   list.text("--styles", gallery->styles, "NAME,NAME,…", "Only these, in this order (all)");

@@ -128,7 +128,8 @@ struct BenchRatesOptions {
 /// burin gallery
 struct GalleryOptions {
   RenderOptions render;             ///< of every panel: `size` is a panel's, `output` the sheet
-  std::vector<std::string> styles;  ///< named ones; none: all of them
+  std::vector<std::string> inputs;  ///< drawn as they are, if two or more; one is render.input's
+  std::vector<std::string> styles;  ///< of one input: named ones; none: all of them
   int columns = 0;                  ///< 0: about as many as rows
 };
 
