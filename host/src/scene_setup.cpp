@@ -2,11 +2,13 @@
 
 #include <fstream>
 #include <sstream>
+#include <utility>
 
 #include "burin/common/error.hpp"
 #include "burin/common/log.hpp"
 #include "burin/host/default_scene.hpp"
 #include "burin/host/shared_error.hpp"
+#include "burin/node/scanned_volume.hpp"
 #include "burin/node/survey.hpp"
 
 namespace burin::host {
@@ -80,7 +82,10 @@ Scene sceneFromVolume(const Communicator& comm, const RenderOptions& options,
 std::unique_ptr<node::BrickSource> openTogether(const Communicator& comm,
                                                 const VolumeChoice& choice) {
   std::unique_ptr<node::BrickSource> source;
-  together(comm, "opening the volume", [&] { source = node::openVolume(choice); });
+  std::string scan;
+  onRoot(comm, [&] { scan = node::scanVolume(choice); });
+  scan = broadcastText(comm, std::move(scan), Rank{0});
+  together(comm, "opening the volume", [&] { source = node::openScannedVolume(choice, scan); });
   if (comm.isRoot() && !source->info().notice.empty()) note("{}", source->info().notice);
   return source;
 }

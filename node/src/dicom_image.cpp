@@ -1,265 +1,210 @@
 #include "dicom_image.hpp"
 
-#include <gdcmBoxRegion.h>
-#include <gdcmImageHelper.h>
-#include <gdcmImageReader.h>
-#include <gdcmImageRegionReader.h>
-#include <gdcmSequenceOfItems.h>
-#include <gdcmTrace.h>
+#include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dcdatset.h>
+#include <dcmtk/dcmdata/dcdeftag.h>
+#include <dcmtk/dcmdata/dcmetinf.h>
+#include <dcmtk/dcmdata/dcsequen.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
+#include <limits>
 
 #include "burin/common/error.hpp"
+#include "dicom_file.hpp"
 #include "stored_voxels.hpp"
 #include "text_fields.hpp"
 
 namespace burin::node {
 namespace {
 
-const gdcm::Tag kPixelData{0x7fe0, 0x0010};
-const gdcm::Tag kPosition{0x0020, 0x0032};
-const gdcm::Tag kOrientation{0x0020, 0x0037};
-const gdcm::Tag kSharedGroups{0x5200, 0x9229};
-const gdcm::Tag kFrameGroups{0x5200, 0x9230};
-const gdcm::Tag kPlanePosition{0x0020, 0x9113};
-const gdcm::Tag kPlaneOrientation{0x0020, 0x9116};
-const gdcm::Tag kPixelMeasures{0x0028, 0x9110};
-
 /// The text of an element on one line, without the padding; empty if it is not there.
-std::string textOf(const gdcm::DataSet& set, const gdcm::Tag& tag) {
-  if (!set.FindDataElement(tag)) return "";
-  const gdcm::ByteValue* const value = set.GetDataElement(tag).GetByteValue();
-  if (value == nullptr || value->GetPointer() == nullptr) return "";
-  std::string text{value->GetPointer(), value->GetLength()};
-  text.resize(std::min(text.find('\0'), text.size()));
+std::string textOf(DcmItem& item, const DcmTagKey& tag) {
+  OFString found;
+  if (item.findAndGetOFStringArray(tag, found).bad()) return "";
+  std::string text{found.c_str()};  // ends at a zero byte
   std::ranges::replace_if(
       text, [](unsigned char c) { return c < ' '; }, ' ');
   return std::string{trimmed(text)};
 }
 
+/// Places and lengths beyond are no header's but damage, and so far from each other that their
+/// differences are none.
+constexpr double kMostNumber = 1e15;
+
 /// "1\2.5\3": the numbers of an element, if there are that many.
-std::optional<std::vector<double>> numbersOf(const gdcm::DataSet& set, const gdcm::Tag& tag,
+std::optional<std::vector<double>> numbersOf(DcmItem& item, const DcmTagKey& tag,
                                              std::size_t count) {
-  std::string text = textOf(set, tag);
+  std::string text = textOf(item, tag);
   std::ranges::replace(text, '\\', ' ');
   std::vector<double> numbers;
   for (const std::string_view word : words(text)) {
     const auto number = numberIn<double>(word);
-    if (!number || !std::isfinite(*number)) return std::nullopt;
+    if (!number || !(std::abs(*number) <= kMostNumber)) return std::nullopt;
     numbers.push_back(*number);
   }
   if (numbers.size() != count) return std::nullopt;
   return numbers;
 }
 
-std::optional<glm::dvec3> vectorOf(const gdcm::DataSet& set, const gdcm::Tag& tag) {
-  const auto numbers = numbersOf(set, tag, 3);
+std::optional<double> numberOf(DcmItem& item, const DcmTagKey& tag) {
+  const auto numbers = numbersOf(item, tag, 1);
+  if (!numbers) return std::nullopt;
+  return numbers->front();
+}
+
+std::optional<glm::dvec3> vectorOf(DcmItem& item, const DcmTagKey& tag) {
+  const auto numbers = numbersOf(item, tag, 3);
   if (!numbers) return std::nullopt;
   return glm::dvec3{(*numbers)[0], (*numbers)[1], (*numbers)[2]};
 }
 
-/// The last (`isLast`) or first item of a sequence; nothing if there is none.
-std::optional<gdcm::DataSet> itemOf(const gdcm::DataSet& set, const gdcm::Tag& sequence,
-                                    bool isLast = false) {
-  if (!set.FindDataElement(sequence)) return std::nullopt;
-  const auto items = set.GetDataElement(sequence).GetValueAsSQ();
-  if (items == nullptr || items->GetNumberOfItems() == 0) return std::nullopt;
-  return items->GetItem(isLast ? items->GetNumberOfItems() : 1).GetNestedDataSet();
+/// A whole number of the header; `otherwise` if it is not there or none.
+int wholeOf(DcmItem& item, const DcmTagKey& tag, int otherwise) {
+  const auto number = numberOf(item, tag);
+  return number ? static_cast<int>(std::clamp(*number, -1e9, 1e9)) : otherwise;
 }
 
-/// Where an enhanced file keeps an element of its first (or last) frame: among those of the frame,
-/// or of all frames.
-std::optional<gdcm::DataSet> groupOf(const gdcm::DataSet& set, const gdcm::Tag& group,
-                                     bool isLast = false) {
-  for (const gdcm::Tag& place : {kFrameGroups, kSharedGroups}) {
-    const auto frame = itemOf(set, place, isLast);
-    if (!frame) continue;
-    if (auto found = itemOf(*frame, group)) return found;
-  }
-  return std::nullopt;
+/// An item of a sequence; the last one if `index` is -1. Null if there is none.
+DcmItem* itemOf(DcmItem& parent, const DcmTagKey& sequence, int index = 0) {
+  DcmItem* item = nullptr;
+  return parent.findAndGetSequenceItem(sequence, item, index).good() ? item : nullptr;
 }
 
-void readGeometry(const gdcm::DataSet& set, DicomImage& image) {
-  image.position = vectorOf(set, kPosition);
-  if (const auto first = groupOf(set, kPlanePosition)) {
-    image.position = vectorOf(*first, kPosition);
-    if (const auto last = groupOf(set, kPlanePosition, true))
-      image.lastFrame = vectorOf(*last, kPosition);
+/// Where an enhanced file keeps an element of a frame (the last one if `frame` is -1): among those
+/// of the frame, or of all frames. Null if it is no such file.
+DcmItem* groupOf(DcmItem& set, const DcmTagKey& group, int frame = 0) {
+  if (DcmItem* const own = itemOf(set, DCM_PerFrameFunctionalGroupsSequence, frame)) {
+    if (DcmItem* const found = itemOf(*own, group)) return found;
   }
-  auto orientation = numbersOf(set, kOrientation, 6);
-  if (const auto group = groupOf(set, kPlaneOrientation))
-    orientation = numbersOf(*group, kOrientation, 6);
-  if (orientation) {
-    const std::vector<double>& n = *orientation;
-    image.row = glm::dvec3{n[0], n[1], n[2]};
-    image.column = glm::dvec3{n[3], n[4], n[5]};
+  DcmItem* const shared = itemOf(set, DCM_SharedFunctionalGroupsSequence);
+  return shared == nullptr ? nullptr : itemOf(*shared, group);
+}
+
+void readPosition(DcmItem& set, DicomImage& image) {
+  image.position = vectorOf(set, DCM_ImagePositionPatient);
+  if (DcmItem* const first = groupOf(set, DCM_PlanePositionSequence)) {
+    image.position = vectorOf(*first, DCM_ImagePositionPatient);
+    if (DcmItem* const last = groupOf(set, DCM_PlanePositionSequence, -1))
+      image.lastFrame = vectorOf(*last, DCM_ImagePositionPatient);
   }
-  const gdcm::DataSet measures = groupOf(set, kPixelMeasures).value_or(set);
-  for (const gdcm::Tag& tag : {gdcm::Tag{0x0028, 0x0030}, gdcm::Tag{0x0018, 0x1164}}) {
-    // Pixel spacing, else imager pixel spacing: of rows first.
-    const auto spacing = numbersOf(measures, tag, 2);
+  DcmItem* const group = groupOf(set, DCM_PlaneOrientationSequence);
+  const auto n = numbersOf(group == nullptr ? set : *group, DCM_ImageOrientationPatient, 6);
+  if (!n) return;
+  image.row = glm::dvec3{(*n)[0], (*n)[1], (*n)[2]};
+  image.column = glm::dvec3{(*n)[3], (*n)[4], (*n)[5]};
+}
+
+void readSpacing(DcmItem& set, DicomImage& image) {
+  DcmItem* const group = groupOf(set, DCM_PixelMeasuresSequence);
+  DcmItem& measures = group == nullptr ? set : *group;
+  for (const DcmTagKey& tag : {DCM_PixelSpacing, DCM_ImagerPixelSpacing}) {
+    const auto spacing = numbersOf(measures, tag, 2);  // of rows first
     if (!spacing) continue;
     image.spacing = {(*spacing)[1], (*spacing)[0]};
     break;
   }
-  for (const gdcm::Tag& tag : {gdcm::Tag{0x0018, 0x0088}, gdcm::Tag{0x0018, 0x0050}}) {
-    // Spacing between slices, else their thickness.
-    const auto spacing = numbersOf(measures, tag, 1);
-    if (!spacing || !(std::abs(spacing->front()) > 0)) continue;
-    image.sliceSpacing = std::abs(spacing->front());
+  for (const DcmTagKey& tag : {DCM_SpacingBetweenSlices, DCM_SliceThickness}) {
+    const auto spacing = numberOf(measures, tag);
+    if (!spacing || !(std::abs(*spacing) > 0)) continue;
+    image.sliceSpacing = std::abs(*spacing);
     break;
   }
 }
 
-void readLayout(const gdcm::File& file, DicomImage& image) {
-  const std::vector<unsigned> dims = gdcm::ImageHelper::GetDimensionsValue(file);
-  const gdcm::PixelFormat format = gdcm::ImageHelper::GetPixelFormatValue(file);
-  const auto size = [&](std::size_t i) { return std::int64_t{i < dims.size() ? dims[i] : 1}; };
+/// Slope 0, as some files have it where there is none, means 1.
+Rescale rescaleOf(DcmItem& item) {
+  const double slope = numberOf(item, DCM_RescaleSlope).value_or(1);
+  return {slope == 0 ? 1 : slope, numberOf(item, DCM_RescaleIntercept).value_or(0)};
+}
+
+void readRescale(DcmItem& set, DicomImage& image) {
+  image.rescale = {rescaleOf(set)};
+  DcmSequenceOfItems* frames = nullptr;
+  set.findAndGetSequence(DCM_PerFrameFunctionalGroupsSequence, frames);
+  const auto count = static_cast<unsigned long>(image.layout.dims.z);
+  const bool isPerFrame = frames != nullptr && frames->card() == count &&
+                          itemOf(*frames->getItem(0), DCM_PixelValueTransformationSequence);
+  DcmItem* const shared = groupOf(set, DCM_PixelValueTransformationSequence);
+  if (shared != nullptr) image.rescale = {rescaleOf(*shared)};
+  if (!isPerFrame) return;
+  for (unsigned long frame = 1; frame < count; ++frame) {
+    DcmItem* const own = itemOf(*frames->getItem(frame), DCM_PixelValueTransformationSequence);
+    image.rescale.push_back(own == nullptr ? image.rescale.front() : rescaleOf(*own));
+  }
+}
+
+void readSize(DcmItem& set, DicomImage& image) {
   image.layout.dims =
-      checkedDims(image.file.string(), {size(0), size(1), std::max<std::int64_t>(size(2), 1)});
-  image.layout.components = format.GetSamplesPerPixel();
-  const bool isSigned = format.GetPixelRepresentation() == 1;
-  const auto type =
-      storedTypeFromName(fmt::format("{}{}", isSigned ? "i" : "u", format.GetBitsAllocated()));
-  if (!type || format.GetBitsStored() > format.GetBitsAllocated()) {
+      checkedDims(image.file.string(), {wholeOf(set, DCM_Columns, 0), wholeOf(set, DCM_Rows, 0),
+                                        std::max(wholeOf(set, DCM_NumberOfFrames, 1), 1)});
+  image.layout.components = wholeOf(set, DCM_SamplesPerPixel, 1);
+  checkLayout(image.file.string(), image.layout);
+  StoredLayout frame = image.layout;
+  frame.dims.z = 1;
+  // DCMTK counts a frame's bytes in 32 bits; a pixel's number has four at most.
+  if (frame.bytes() > std::numeric_limits<std::uint32_t>::max() / 4) {
+    fail(ExitCode::kVolume, "{}: frames of {} x {} pixels (expected less than 4 GB)",
+         image.file.string(), frame.dims.x, frame.dims.y);
+  }
+}
+
+void readPixelType(DcmItem& set, DicomImage& image) {
+  const int allocated = wholeOf(set, DCM_BitsAllocated, 0);
+  const bool isSigned = wholeOf(set, DCM_PixelRepresentation, 0) == 1;
+  const auto type = storedTypeFromName(fmt::format("{}{}", isSigned ? "i" : "u", allocated));
+  if (!type || allocated > 32) {
     fail(ExitCode::kVolume, "{}: pixels of {} bits are not supported (expected 8, 16 or 32)",
-         image.file.string(), format.GetBitsAllocated());
+         image.file.string(), allocated);
   }
   image.layout.type = *type;
-  image.storedRange = {static_cast<double>(format.GetMin()), static_cast<double>(format.GetMax())};
-  const auto scale = gdcm::ImageHelper::GetRescaleInterceptSlopeValue(file);
-  image.rescale = {scale[1], scale[0]};
-}
-
-std::string syntaxName(const gdcm::TransferSyntax& syntax) {
-  using gdcm::TransferSyntax;
-  switch (static_cast<TransferSyntax::TSType>(syntax)) {
-    case TransferSyntax::ImplicitVRLittleEndian:
-    case TransferSyntax::ExplicitVRLittleEndian:
-    case TransferSyntax::ExplicitVRBigEndian:
-      return "raw";
-    case TransferSyntax::DeflatedExplicitVRLittleEndian:
-      return "deflated";
-    case TransferSyntax::RLELossless:
-      return "RLE";
-    case TransferSyntax::JPEGLSLossless:
-    case TransferSyntax::JPEGLSNearLossless:
-      return "JPEG-LS";
-    case TransferSyntax::JPEG2000Lossless:
-    case TransferSyntax::JPEG2000:
-      return "JPEG 2000";
-    case TransferSyntax::JPEGBaselineProcess1:
-    case TransferSyntax::JPEGExtendedProcess2_4:
-    case TransferSyntax::JPEGLosslessProcess14:
-    case TransferSyntax::JPEGLosslessProcess14_1:
-      return "JPEG";
-    default:
-      return fmt::format("transfer syntax {}", syntax.GetString());
+  image.bitsStored = wholeOf(set, DCM_BitsStored, allocated);
+  image.highBit = wholeOf(set, DCM_HighBit, image.bitsStored - 1);
+  if (image.bitsStored < 1 || image.highBit >= allocated || image.highBit < image.bitsStored - 1) {
+    fail(ExitCode::kVolume, "{}: {} bits up to bit {} stored (expected such that {} bits hold)",
+         image.file.string(), image.bitsStored, image.highBit, allocated);
   }
+  const double most = std::ldexp(1.0, image.bitsStored);
+  image.storedRange = isSigned ? glm::dvec2{-most / 2, most / 2 - 1} : glm::dvec2{0, most - 1};
+  image.photometric = textOf(set, DCM_PhotometricInterpretation);
+  image.isPlanar = image.layout.components > 1 && wholeOf(set, DCM_PlanarConfiguration, 0) == 1;
 }
 
-/// GDCM fills up what is missing at the end of a truncated file; we do not. `start`: byte at which
-/// the pixels begin.
-void checkSize(const gdcm::TransferSyntax& syntax, std::uint64_t start, const DicomImage& image) {
-  if (syntax.IsEncapsulated() || syntax == gdcm::TransferSyntax::DeflatedExplicitVRLittleEndian)
-    return;
-  const std::uint64_t expected = start + image.layout.bytes();
-  const std::uint64_t found = regularFileSize(image.file);
-  if (found >= expected) return;
-  fail(ExitCode::kVolume, "{}: truncated: {} bytes found, {} expected ({})", image.file.string(),
-       found, expected, describe(image.layout));
-}
-
-/// GDCM's complaints go to the standard error; ours say what is wrong.
-void silence() {
-  gdcm::Trace::DebugOff();
-  gdcm::Trace::WarningOff();
-  gdcm::Trace::ErrorOff();
+/// That the pixels of a file which is whole are so, too. `bytes`: what their element has; packed
+/// ones do not say it.
+void checkLength(std::uint32_t bytes, const DicomImage& image) {
+  if (bytes == DCM_UndefinedLength || bytes >= image.layout.bytes()) return;
+  fail(ExitCode::kVolume, "{}: truncated: {} bytes of pixels found, {} expected ({})",
+       image.file.string(), bytes, image.layout.bytes(), describe(image.layout));
 }
 
 }  // namespace
 
 std::optional<DicomImage> readDicomHeader(const std::filesystem::path& path) {
-  silence();
-  gdcm::Reader reader;
-  reader.SetFileName(path.c_str());
-  if (!reader.CanRead() || !reader.ReadUpToTag(kPixelData, {kPixelData})) return std::nullopt;
-  const gdcm::File& file = reader.GetFile();
-  const gdcm::DataSet& set = file.GetDataSet();
-  const gdcm::Tag rows{0x0028, 0x0010};
-  const gdcm::Tag columns{0x0028, 0x0011};
-  if (!set.FindDataElement(rows) || !set.FindDataElement(columns)) return std::nullopt;
+  DcmFileFormat file;
+  const OFCondition loaded = loadDicomFile(path, file);
+  DcmDataset& set = *file.getDataset();
+  if (!set.tagExists(DCM_Rows) || !set.tagExists(DCM_Columns)) return std::nullopt;
   DicomImage image;
   image.file = path;
-  image.seriesUid = textOf(set, {0x0020, 0x000e});
+  image.seriesUid = textOf(set, DCM_SeriesInstanceUID);
   image.description =
-      std::string{trimmed(textOf(set, {0x0008, 0x0060}) + " " + textOf(set, {0x0008, 0x103e}))};
-  const auto instance = numbersOf(set, {0x0020, 0x0013}, 1);
-  image.instance = instance ? static_cast<int>(std::clamp(instance->front(), -1e9, 1e9)) : 0;
-  readLayout(file, image);
-  readGeometry(set, image);
-  const gdcm::TransferSyntax& syntax = file.GetHeader().GetDataSetTransferSyntax();
-  image.encoding = syntaxName(syntax);
-  checkSize(syntax, reader.GetStreamCurrentPosition(), image);
-  return image;
-}
-
-namespace {
-
-[[noreturn]] void failPixels(const DicomImage& image) {
-  fail(ExitCode::kVolume,
-       "{}: its pixels cannot be read ({}; truncated, damaged or compressed in an unknown way; "
-       "expected {})",
-       image.file.string(), image.encoding, describe(image.layout));
-}
-
-/// Component after component of a slice, to all components of a pixel together.
-void interleave(std::vector<char>& pixels, const StoredLayout& layout) {
-  const std::size_t each = bytesPerNumber(layout.type);
-  const auto components = static_cast<std::size_t>(layout.components);
-  const std::size_t count = pixels.size() / each / components;
-  std::vector<char> mixed(pixels.size());
-  for (std::size_t c = 0; c < components; ++c)
-    for (std::size_t i = 0; i < count; ++i)
-      std::memcpy(&mixed[(i * components + c) * each], &pixels[(c * count + i) * each], each);
-  pixels = std::move(mixed);
-}
-
-/// Of a file with one frame.
-void readFrame(const DicomImage& image, const IndexBox& box, std::span<std::byte> out) {
-  gdcm::ImageReader reader;
-  reader.SetFileName(image.file.c_str());
-  if (!reader.Read()) failPixels(image);
-  const gdcm::Image& decoded = reader.GetImage();
-  std::vector<char> pixels(decoded.GetBufferLength());
-  if (pixels.size() != image.layout.bytes() || !decoded.GetBuffer(pixels.data())) failPixels(image);
-  if (image.layout.components > 1 && decoded.GetPlanarConfiguration() == 1)
-    interleave(pixels, image.layout);
-  copyVoxels(std::as_bytes(std::span{pixels}), {glm::ivec3{0}, image.layout.dims}, out, box, box,
-             image.layout.voxelBytes());
-}
-
-}  // namespace
-
-void readDicomPixels(const DicomImage& image, const IndexBox& box, std::span<std::byte> out) {
-  silence();
-  if (image.layout.dims.z == 1) {
-    readFrame(image, box, out);
-    return;
+      std::string{trimmed(textOf(set, DCM_Modality) + " " + textOf(set, DCM_SeriesDescription))};
+  image.instance = wholeOf(set, DCM_InstanceNumber, 0);
+  image.syntaxUid = textOf(*file.getMetaInfo(), DCM_TransferSyntaxUID);
+  readSize(set, image);
+  readPixelType(set, image);
+  if (loaded.bad()) {
+    fail(ExitCode::kVolume, "{}: truncated or damaged: {} bytes found (expected {}; {})",
+         path.string(), regularFileSize(path), describe(image.layout), loaded.text());
   }
-  gdcm::ImageRegionReader reader;
-  reader.SetFileName(image.file.c_str());
-  if (!reader.ReadInformation()) failPixels(image);
-  gdcm::BoxRegion region;
-  const auto at = [](int n) { return static_cast<unsigned>(n); };
-  region.SetDomain(at(box.lo.x), at(box.hi.x) - 1, at(box.lo.y), at(box.hi.y) - 1, at(box.lo.z),
-                   at(box.hi.z) - 1);
-  reader.SetRegion(region);
-  if (reader.ComputeBufferLength() != out.size() ||
-      !reader.ReadIntoBuffer(reinterpret_cast<char*>(out.data()), out.size()))
-    failPixels(image);
+  DcmElement* pixels = nullptr;
+  if (set.findAndGetElement(DCM_PixelData, pixels).bad()) return std::nullopt;
+  checkLength(pixels->getLengthField(), image);
+  readPosition(set, image);
+  readSpacing(set, image);
+  readRescale(set, image);
+  return image;
 }
 
 }  // namespace burin::node

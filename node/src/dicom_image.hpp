@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <glm/glm.hpp>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -18,9 +17,13 @@ struct DicomImage {
   std::string description;  ///< modality and series description
   int instance = 0;         ///< instance number; 0 if there is none
   StoredLayout layout;      ///< columns, rows, frames
+  int bitsStored = 8;       ///< of those that `layout.type` has
+  int highBit = 7;          ///< the uppermost of them
   glm::dvec2 storedRange{0};
-  Rescale rescale;
-  std::string encoding;                   ///< transfer syntax, in short
+  std::vector<Rescale> rescale{{}};  ///< one for all frames, or one per frame
+  std::string syntaxUid;             ///< transfer syntax: how the pixels are packed
+  std::string photometric;           ///< "MONOCHROME2", "RGB", "YBR_FULL", ...
+  bool isPlanar = false;  ///< components of a frame lie one after another, if they are not packed
   std::optional<glm::dvec3> position;     ///< LPS, mm, of the first pixel of the first frame
   std::optional<glm::dvec3> lastFrame;    ///< the same of the last frame, if it is told
   std::optional<glm::dvec3> row, column;  ///< directions in which columns and rows count up
@@ -29,11 +32,7 @@ struct DicomImage {
 };
 
 /// Nothing if the file is no DICOM file, or one without pixels. Throws Error{kVolume} if it has
-/// pixels of an unsupported kind.
+/// pixels of an unsupported kind, is truncated or damaged.
 std::optional<DicomImage> readDicomHeader(const std::filesystem::path& file);
-
-/// Pixels of a box of `image`, whose z are frames; all components of a pixel together. Throws
-/// Error{kVolume} if the file is truncated, damaged, or compressed in a way that GDCM cannot undo.
-void readDicomPixels(const DicomImage& image, const IndexBox& box, std::span<std::byte> out);
 
 }  // namespace burin::node

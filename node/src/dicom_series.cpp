@@ -1,12 +1,11 @@
 #include "dicom_series.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 
 #include "burin/common/error.hpp"
-#include "file_handle.hpp"
+#include "dicom_folder.hpp"
 #include "stored_voxels.hpp"
 #include "text_fields.hpp"
 
@@ -17,22 +16,10 @@ namespace fs = std::filesystem;
 
 using Images = std::vector<DicomImage>;
 
-/// Calls visit(path) for the regular files below a folder until one call returns false.
-template <typename Visit>
-void forFiles(const fs::path& folder, Visit&& visit) {
-  std::error_code error;
-  for (fs::recursive_directory_iterator at{folder, error}, end; at != end; at.increment(error)) {
-    if (error) break;
-    std::error_code ignored;
-    if (at->is_regular_file(ignored) && !visit(at->path())) return;
-  }
-  if (error) fail(ExitCode::kVolume, "{}: {}", folder.string(), error.message());
-}
-
 /// All images below a folder, by the UID of their series.
 std::map<std::string, Images> imagesIn(const fs::path& folder) {
   std::map<std::string, Images> series;
-  forFiles(folder, [&](const fs::path& file) {
+  forFilesBelow(folder, [&](const fs::path& file) {
     if (auto image = readDicomHeader(file)) series[image->seriesUid].push_back(std::move(*image));
     return true;
   });
@@ -166,7 +153,9 @@ void sortSlices(const std::string& name, const glm::dvec3& normal, DicomSeries& 
   }
 }
 
-DicomSeries arranged(const std::string& name, Images images) {
+}  // namespace
+
+DicomSeries arrangeDicomSeries(const std::string& name, std::vector<DicomImage> images) {
   DicomSeries series;
   series.images = std::move(images);
   checkAlike(name, series.images);
@@ -178,6 +167,10 @@ DicomSeries arranged(const std::string& name, Images images) {
   }
   const glm::dvec3 row = first.row.value_or(glm::dvec3{1, 0, 0});
   const glm::dvec3 column = first.column.value_or(glm::dvec3{0, 1, 0});
+  if (!(glm::length(glm::cross(row, column)) > 1e-3)) {
+    fail(ExitCode::kVolume, "{}: rows and columns of {} have one direction (expected two)", name,
+         first.file.filename().string());
+  }
   const glm::dvec3 normal = glm::normalize(glm::cross(row, column));
   sortSlices(name, normal, series);
   const int slices = std::max(frames, static_cast<int>(series.images.size()));
@@ -199,25 +192,11 @@ DicomSeries arranged(const std::string& name, Images images) {
   return series;
 }
 
-}  // namespace
-
-bool hasDicomFiles(const fs::path& folder) {
-  bool found = false;
-  forFiles(folder, [&](const fs::path& file) {
-    std::array<std::byte, 4> magic{};
-    FileHandle{file}.readSome(128, magic);
-    found = magic == std::array{std::byte{'D'}, std::byte{'I'}, std::byte{'C'}, std::byte{'M'}};
-    return !found;
-  });
-  return found;
-}
-
-DicomSeries readDicomSeries(const VolumeChoice& choice) {
-  if (fs::is_directory(choice.file))
-    return arranged(choice.file, chosenSeries(choice, imagesIn(choice.file)));
+std::vector<DicomImage> findDicomSeries(const VolumeChoice& choice) {
+  if (fs::is_directory(choice.file)) return chosenSeries(choice, imagesIn(choice.file));
   auto image = readDicomHeader(choice.file);
   if (!image) fail(ExitCode::kVolume, "{}: not a DICOM file with an image", choice.file);
-  return arranged(choice.file, {std::move(*image)});
+  return {std::move(*image)};
 }
 
 }  // namespace burin::node

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <span>
 #include <string>
 #include <vector>
 
@@ -17,12 +16,13 @@ struct DicomSeries {
   std::string notice;  ///< a gantry tilt, or what had to be assumed
 };
 
-/// Whether there is any DICOM file below the folder.
-bool hasDicomFiles(const std::filesystem::path& folder);
+/// The images of the series in a folder (with the folders in it) that `choice` means, or the one
+/// file. Throws Error{kVolume} if there is none, or if there are several series and none is chosen
+/// (lists them).
+std::vector<DicomImage> findDicomSeries(const VolumeChoice& choice);
 
-/// The series of a folder (with the folders in it) that `choice` means, or the one file. Throws
-/// Error{kVolume} if there is none, if there are several and none is chosen (lists them), or if its
-/// slices make no regular grid: some are missing, twice there, or differ in size or direction.
-DicomSeries readDicomSeries(const VolumeChoice& choice);
+/// The volume that such images make; `name`: for messages. Throws Error{kVolume} if their slices
+/// make no regular grid: some are missing, twice there, or differ in size or direction.
+DicomSeries arrangeDicomSeries(const std::string& name, std::vector<DicomImage> images);
 
 }  // namespace burin::node

@@ -31,6 +31,10 @@ struct FileFormat {
   bool selfDescribing;          ///< false: takes dims, type and endian from the user
   bool (*recognises)(const FileStart& start);
   std::unique_ptr<BrickSource> (*open)(const VolumeChoice& choice);
+  /// For volumes in many files: what their headers say, for openScanned() on every rank.
+  std::string (*scan)(const VolumeChoice& choice) = nullptr;
+  std::unique_ptr<BrickSource> (*openScanned)(const VolumeChoice& choice,
+                                              const std::string& scan) = nullptr;
 };
 
 /// In the order in which they are asked.
@@ -60,6 +64,8 @@ bool recognisesPictures(const FileStart& start);
 std::unique_ptr<BrickSource> openPictures(const VolumeChoice& choice);
 bool recognisesDicom(const FileStart& start);
 std::unique_ptr<BrickSource> openDicom(const VolumeChoice& choice);
+std::string scanDicom(const VolumeChoice& choice);
+std::unique_ptr<BrickSource> openScannedDicom(const VolumeChoice& choice, const std::string& scan);
 bool recognisesRaw(const FileStart& start);
 std::unique_ptr<BrickSource> openRaw(const VolumeChoice& choice);
 

@@ -6,6 +6,7 @@
 #include "burin/common/error.hpp"
 #include "burin/node/brick_source.hpp"
 #include "burin/node/procedural.hpp"
+#include "burin/node/scanned_volume.hpp"
 #include "file_formats.hpp"
 #include "file_handle.hpp"
 #include "gzip_stream.hpp"
@@ -23,7 +24,7 @@ constexpr std::array<FileFormat, 9> kFormats{{
     {"VTK", ".vtk", true, recognisesVtk, openVtk},
     {"VTK XML", ".vti", true, recognisesVti, openVti},
     {"HDF5", ".h5:/PATH", true, recognisesHdf5, openHdf5},
-    {"DICOM", ".dcm, a folder", true, recognisesDicom, openDicom},
+    {"DICOM", ".dcm, a folder", true, recognisesDicom, openDicom, scanDicom, openScannedDicom},
     {"pictures", ".tif, slice%03d.png, a folder", true, recognisesPictures, openPictures},
     {"raw", ".raw .raw.gz", false, recognisesRaw, openRaw},
 }};
@@ -124,7 +125,18 @@ std::span<const FileFormat> fileFormats() {
   return kFormats;
 }
 
+std::string scanVolume(const VolumeChoice& choice) {
+  if (!choice.procedural.empty()) return "";
+  const FileFormat& format = formatOf(choice);
+  return format.scan == nullptr ? "" : format.scan(choice);
+}
+
 std::unique_ptr<BrickSource> openVolume(const VolumeChoice& choice) {
+  return openScannedVolume(choice, "");
+}
+
+std::unique_ptr<BrickSource> openScannedVolume(const VolumeChoice& choice,
+                                               const std::string& scan) {
   if (!choice.procedural.empty()) return openProcedural(choice);
   const FileFormat& format = formatOf(choice);
   if (format.selfDescribing && (choice.dims || choice.type || choice.endian)) {
@@ -135,7 +147,8 @@ std::unique_ptr<BrickSource> openVolume(const VolumeChoice& choice) {
     fail(ExitCode::kUsage, "{}: --series is for DICOM folders, and this is {}", choice.file,
          format.name);
   }
-  std::unique_ptr<BrickSource> source = format.open(choice);
+  std::unique_ptr<BrickSource> source =
+      scan.empty() ? format.open(choice) : format.openScanned(choice, scan);
   if (!choice.spacing) return source;
   return std::make_unique<RespacedSource>(std::move(source), *choice.spacing);
 }

@@ -1,12 +1,11 @@
 // Slices as pictures, by OpenImageIO: the pages of a TIFF, numbered files, or a folder of them.
-#include <dlfcn.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "burin/common/error.hpp"
 #include "file_formats.hpp"
+#include "module_function.hpp"
 #include "picture_file.hpp"
 #include "picture_files.hpp"
 #include "stored_voxels.hpp"
@@ -36,21 +35,10 @@ std::string oneLine(std::string text) {
   return std::string{trimmed(text)};
 }
 
-/// Never closed: OpenImageIO has threads of its own.
-OpenPictureFile* openModule() {
-  std::error_code none;
-  const fs::path program = fs::read_symlink("/proc/self/exe", none);
-  const fs::path module = (program.parent_path() / BURIN_PICTURE_FILES_MODULE).lexically_normal();
-  // Lazy, as programs are linked: binding every function of every library would take seconds.
-  void* const library = dlopen(module.c_str(), RTLD_LAZY | RTLD_LOCAL);
-  void* const function = library == nullptr ? nullptr : dlsym(library, kOpenPictureFile);
-  // NOLINTNEXTLINE(concurrency-mt-unsafe): one thread
-  if (function == nullptr) fail(ExitCode::kRank, "no pictures can be read: {}", dlerror());
-  return reinterpret_cast<OpenPictureFile*>(function);
-}
-
 Picture openPicture(const fs::path& file) {
-  static OpenPictureFile* const open = openModule();
+  // OpenImageIO has threads of its own, and so the module stays open.
+  static auto* const open = reinterpret_cast<OpenPictureFile*>(
+      moduleFunction(BURIN_PICTURE_FILES_MODULE, kOpenPictureFile));
   regularFileSize(file);
   std::string reason;
   Picture picture{open(file.string(), reason)};
@@ -80,7 +68,8 @@ void checkPage(const fs::path& file, int page, const StoredLayout& found,
        describe(expected));
 }
 
-class PictureVoxels : public SliceReader {
+/// A page is decoded whole: OpenImageIO 2.4 delivers zeros for some rows of a page of doubles.
+class PictureVoxels : public DecodedSlices {
  public:
   PictureVoxels(PictureStack stack, const StoredLayout& layout)
       : stack_{std::move(stack)}, layout_{layout} {}
@@ -88,26 +77,15 @@ class PictureVoxels : public SliceReader {
   const StoredLayout& layout() const override { return layout_; }
 
  private:
-  /// The page is decoded whole: OpenImageIO 2.4 delivers zeros for some rows of a page of doubles.
-  void readSlice(const IndexBox& slice, std::span<std::byte> out) override {
-    const int z = slice.lo.z;
-    const IndexBox page{{0, 0, z}, {layout_.dims.x, layout_.dims.y, z + 1}};
-    if (decoded_ != z) {
-      decoded_ = -1;
-      scratch_.resize(page.count() * layout_.voxelBytes());
-      decode(stack_.file(z), stack_.page(z));
-      decoded_ = z;
-    }
-    copyVoxels(scratch_, page, out, slice, slice, layout_.voxelBytes());
-  }
-
-  void decode(const fs::path& file, int page) {
+  void decodeSlice(int z, std::span<std::byte> out) override {
+    const fs::path& file = stack_.file(z);
+    const int page = stack_.page(z);
     if (open_ == nullptr || openFile_ != file) {
       open_ = openPicture(file);
       openFile_ = file;
     }
     checkPage(file, page, pageLayout(file, *open_, page), layout_);
-    const std::string reason = open_->read(page, scratch_);
+    const std::string reason = open_->read(page, out);
     if (reason.empty()) return;
     fail(ExitCode::kVolume, "{}: page {} cannot be read: {}", file.string(), page, oneLine(reason));
   }
@@ -116,8 +94,6 @@ class PictureVoxels : public SliceReader {
   StoredLayout layout_;
   Picture open_;
   fs::path openFile_;
-  std::vector<std::byte> scratch_;
-  int decoded_ = -1;  ///< the slice in scratch_
 };
 
 PictureStack stackOf(const std::string& written) {

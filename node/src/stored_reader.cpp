@@ -15,6 +15,18 @@ void SliceReader::read(const IndexBox& region, std::span<std::byte> out) {
   }
 }
 
+void DecodedSlices::readSlice(const IndexBox& box, std::span<std::byte> out) {
+  const int z = box.lo.z;
+  const IndexBox slice{{0, 0, z}, {layout().dims.x, layout().dims.y, z + 1}};
+  if (z_ != z) {
+    z_ = -1;
+    decoded_.resize(slice.count() * layout().voxelBytes());
+    decodeSlice(z, decoded_);
+    z_ = z;
+  }
+  copyVoxels(decoded_, slice, out, box, box, layout().voxelBytes());
+}
+
 std::string describe(const StoredLayout& layout) {
   const std::string count = layout.components == 1 ? "" : fmt::format("{} ", layout.components);
   return fmt::format("{} x {} x {} voxels of {}{}", layout.dims.x, layout.dims.y, layout.dims.z,

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <span>
+#include <string>
+#include <vector>
 
 #include "burin/common/geometry.hpp"
 #include "stored_type.hpp"
@@ -46,6 +48,18 @@ class SliceReader : public StoredReader {
  private:
   /// As read, for a box of one slice that is not empty.
   virtual void readSlice(const IndexBox& box, std::span<std::byte> out) = 0;
+};
+
+/// A SliceReader whose slices are decoded whole; it keeps the last one, for parts of it are asked
+/// for one after another.
+class DecodedSlices : public SliceReader {
+ private:
+  void readSlice(const IndexBox& box, std::span<std::byte> out) final;
+  /// Slice `z` into `out`, which has exactly its size.
+  virtual void decodeSlice(int z, std::span<std::byte> out) = 0;
+
+  std::vector<std::byte> decoded_;
+  int z_ = -1;  ///< of the slice that is decoded
 };
 
 /// "7 x 5 x 6 voxels of u8", "... of 3 u8": what messages say was expected.

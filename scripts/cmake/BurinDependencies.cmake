@@ -13,7 +13,7 @@ pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
 find_package(OpenImageIO 2.4 REQUIRED)
 find_package(NIFTI REQUIRED)
 find_package(Teem REQUIRED)
-find_package(GDCM REQUIRED MODULE)
+find_package(DCMTK REQUIRED MODULE)
 find_package(EXPAT REQUIRED)
 pkg_check_modules(HDF5 REQUIRED IMPORTED_TARGET hdf5-serial)
 

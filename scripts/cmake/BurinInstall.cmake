@@ -18,7 +18,8 @@ install(FILES ${CMAKE_BINARY_DIR}/burinConfig.cmake ${CMAKE_BINARY_DIR}/burinCon
 
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME program)
 install(TARGETS burin RUNTIME)
-install(TARGETS burin_pictures burin_picture_files LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/burin)
+install(TARGETS burin_pictures burin_picture_files burin_formats
+        LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/burin)
 install(DIRECTORY configs/ DESTINATION ${CMAKE_INSTALL_DATADIR}/burin/configs
         FILES_MATCHING PATTERN "*.json")
 install(FILES README.md CHANGELOG.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -346,12 +346,13 @@ def hdf5(h5py):
     refuse("odd.h5:/empty", "4 x 4 x 0")
 
 
-@section("pydicom", "pydicom.uid", "/usr/bin/dcmcrle", "/usr/bin/dcmcjpeg", "/usr/bin/dcmcjpls")
-def dicom(pydicom, uid):
+@section("pydicom", "pydicom.uid", "pydicom.encaps", "/usr/bin/dcmcrle", "/usr/bin/dcmcjpeg", "/usr/bin/dcmcjpls")
+def dicom(pydicom, uid, _):
     from pydicom.dataset import Dataset, FileDataset, FileMetaDataset
 
     def write_slice(file, pixels, position, orientation, syntax=uid.ExplicitVRLittleEndian,
-                    series="1.2.826.0.1.3680043.8.498.1", slope=1, intercept=0, number=1, bits=16):
+                    series="1.2.826.0.1.3680043.8.498.1", slope=1, intercept=0, number=1, bits=16,
+                    photometric="MONOCHROME2", planar=False):
         meta = FileMetaDataset()
         meta.TransferSyntaxUID = syntax
         meta.MediaStorageSOPClassUID = "1.2.840.10008.5.1.4.1.1.2"  # CT
@@ -366,8 +367,11 @@ def dicom(pydicom, uid):
         set_.ImageOrientationPatient = [f"{o:.6f}" for o in orientation]
         set_.PixelSpacing = [SPACING[1], SPACING[0]]
         set_.SliceThickness = 3
-        set_.Rows, set_.Columns = pixels.shape
-        set_.SamplesPerPixel, set_.PhotometricInterpretation = 1, "MONOCHROME2"
+        set_.Rows, set_.Columns = pixels.shape[:2]
+        set_.SamplesPerPixel, set_.PhotometricInterpretation = 1, photometric
+        if pixels.ndim == 3:
+            set_.SamplesPerPixel, set_.PlanarConfiguration = pixels.shape[2], int(planar)
+            pixels = np.moveaxis(pixels, 2, 0) if planar else pixels
         set_.BitsAllocated = pixels.dtype.itemsize * 8
         set_.BitsStored = min(bits, set_.BitsAllocated)
         set_.HighBit = set_.BitsStored - 1
@@ -414,8 +418,39 @@ def dicom(pydicom, uid):
                             path(f"dicom_{program}/{z}.dcm")], check=True)
         case(f"dicom_{program}", twelve.astype("i4") - 1024, "i16", axial)
 
-    def enhance(file, enhanced, values, normal):
-        """From a slice to an enhanced CT of several frames."""
+    # Bits above the pixel's own, where overlays once lay; of numbers with a sign, too.
+    other_bits = sample("u16") & 0xf000
+    write_series("dicom_overlay", twelve | other_bits, bits=12)
+    case("dicom_overlay", twelve, "u16", axial)
+    signed = (twelve.astype("i4") - 2048).astype("i2")
+    write_series("dicom_sign", ((signed & 0xfff) | other_bits.view("i2")).astype("i2"), bits=12)
+    case("dicom_sign", signed, "i16", axial)
+
+    colours = sample("u8", 3)
+    for name, options in (("rgb", {"photometric": "RGB"}),
+                          ("planes", {"photometric": "RGB", "planar": True}),
+                          ("ybr", {"photometric": "YBR_FULL"})):
+        write_series(f"dicom_{name}", colours, **options)
+    for source, program, option in (("planes", "dcmcrle", []), ("rgb", "dcmcjpeg", ["+e1"]),
+                                    ("rgb", "dcmcjpls", ["+el"])):
+        os.mkdir(path(f"dicom_{source}_{program}"))
+        for z in range(SHAPE[0]):
+            subprocess.run([f"/usr/bin/{program}", *option, path(f"dicom_{source}/{z}.dcm"),
+                            path(f"dicom_{source}_{program}/{z}.dcm")], check=True)
+    for name in ("rgb", "planes", "ybr", "planes_dcmcrle", "rgb_dcmcjpeg", "rgb_dcmcjpls"):
+        case(f"dicom_{name}", colours[..., 1], "u8", axial, 1)
+    refuse("dicom_rgb", "3 components per voxel", "--component 0 ... 2")
+    write_slice(path("dicom_422.dcm"), colours[0], ORIGIN, (1, 0, 0, 0, 1, 0), photometric="YBR_FULL_422")
+    refuse("dicom_422.dcm", "YBR_FULL_422", "RGB or YBR_FULL")
+    packed = pydicom.dcmread(path("dicom_u16/0.dcm"))
+    packed.file_meta.TransferSyntaxUID = uid.JPEG2000Lossless
+    packed.PixelData = pydicom.encaps.encapsulate([b"any code stream"])
+    packed["PixelData"].is_undefined_length = True
+    packed.save_as(path("dicom_2000.dcm"))
+    refuse("dicom_2000.dcm", "1.2.840.10008.1.2.4.90", "JPEG 2000", "gdcmconv --raw")
+
+    def enhance(file, enhanced, values, normal, slopes=None):
+        """From a slice to an enhanced CT of several frames, which may have slopes of their own."""
         set_ = pydicom.dcmread(file)
         set_.SOPClassUID = set_.file_meta.MediaStorageSOPClassUID = "1.2.840.10008.5.1.4.1.1.2.1"
         set_.NumberOfFrames = len(values)
@@ -436,6 +471,10 @@ def dicom(pydicom, uid):
             frame.PlanePositionSequence = [Dataset()]
             frame.PlanePositionSequence[0].ImagePositionPatient = [
                 o + z * SPACING[2] * n for o, n in zip(ORIGIN, normal)]
+            if slopes is not None:
+                frame.PixelValueTransformationSequence = [Dataset()]
+                frame.PixelValueTransformationSequence[0].RescaleSlope = slopes[z]
+                frame.PixelValueTransformationSequence[0].RescaleIntercept = 0
             set_.PerFrameFunctionalGroupsSequence.append(frame)
         for name in ("ImagePositionPatient", "ImageOrientationPatient", "PixelSpacing",
                      "SliceThickness", "RescaleSlope", "RescaleIntercept"):
@@ -445,6 +484,9 @@ def dicom(pydicom, uid):
     for name, normal in (("dicom_frames.dcm", (0, 0, 1)), ("dicom_frames_down.dcm", (0, 0, -1))):
         enhance(path("dicom_u16/0.dcm"), path(name), sample("u16"), normal)
         case(name, sample("u16"), "u16", (1,) + SPACING + ORIGIN + (1, 0, 0, 0, 1, 0) + normal)
+    slopes = [0.5 + z for z in range(SHAPE[0])]
+    enhance(path("dicom_u16/0.dcm"), path("dicom_slopes.dcm"), sample("u16"), (0, 0, 1), slopes)
+    case("dicom_slopes.dcm", sample("u16") * np.array(slopes)[:, None, None], "f32", axial)
     cut("dicom_frames.dcm", "cut_frames.dcm", 0.9)
     refuse("cut_frames.dcm", "truncated")
 
@@ -484,7 +526,7 @@ def dicom(pydicom, uid):
     refuse("dicom_cut", "3.dcm", "truncated")
     copies("dicom_cut_jpeg", "dicom_dcmcjpeg", range(6))
     cut("dicom_dcmcjpeg/3.dcm", "dicom_cut_jpeg/3.dcm", 0.9)
-    refuse("dicom_cut_jpeg", "3.dcm", "cannot be read")
+    refuse("dicom_cut_jpeg", "3.dcm", "truncated")
     os.mkdir(path("dicom_empty"))
     refuse("dicom_empty", "without DICOM images")
 
