@@ -204,6 +204,8 @@ ColourMap jsonMap(const At& root, std::string_view map) {
   if (root.node.kind == Node::Kind::kList) return paraviewMap(root, map);
   if (root.node.find("volumeProperties") != nullptr) return slicerMap(root);
   if (root.node.find("RGBPoints") != nullptr) return paraviewMap(root);
+  if (root.node.find("layers") != nullptr)
+    root.fail("a scene, no colour map (burin colormap --paraview makes one of it)");
   root.fail("neither a colour map of ParaView nor a volume property of 3D Slicer");
 }
 

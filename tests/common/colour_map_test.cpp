@@ -228,6 +228,7 @@ TEST(ReadColourMap, MistakesAreNamedWithTheirPlace) {
   const auto json = [&](std::string_view text) { return messageOf(folder.write("m.json", text)); };
   EXPECT_THAT(messageOf(folder / "none.json"), HasSubstr("none.json: cannot read the colour map"));
   EXPECT_THAT(json("{}"), HasSubstr("neither a colour map of ParaView"));
+  EXPECT_THAT(json(R"({ "schema_version": 1, "layers": [] })"), HasSubstr("colormap --paraview"));
   EXPECT_THAT(json(R"([{ "RGBPoints": [0, 1, 1] }])"), HasSubstr("[0].RGBPoints: expected a list"));
   EXPECT_THAT(json(R"([{ "RGBPoints": [0, 1, 1, 1, 2] }])"), HasSubstr("4 numbers for each point"));
   EXPECT_THAT(json(R"([{ "RGBPoints": [0, 1, 1, "x"] }])"), HasSubstr("expected a number"));
