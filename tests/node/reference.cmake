@@ -1,7 +1,8 @@
 # The double-precision reference renderer, against closed forms.
 burin_add_test(reference_test
   SOURCES reference_slab_test.cpp reference_convergence_test.cpp reference_invariance_test.cpp
-          reference_converged_test.cpp reference_gradient_test.cpp reference_cut_test.cpp reference_laplacian_test.cpp
+          reference_converged_test.cpp reference_gradient_test.cpp reference_cut_test.cpp
+          reference_laplacian_test.cpp reference_style_convergence_test.cpp
           reference_style_test.cpp reference_voxel_test.cpp
   LIBRARIES burin::reference
   LABELS node sanitize)
