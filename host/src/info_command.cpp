@@ -3,9 +3,15 @@
 #include <cstdio>
 
 #include "build_info.hpp"
+#include "burin/common/error.hpp"
 #include "burin/host/commands.hpp"
+#include "burin/host/gradient_histogram.hpp"
 #include "burin/host/histogram.hpp"
+#include "burin/host/interrupt.hpp"
+#include "burin/host/picture.hpp"
 #include "burin/host/scene_setup.hpp"
+#include "burin/host/shared_error.hpp"
+#include "burin/host/text.hpp"
 #include "burin/node/survey.hpp"
 
 namespace burin::host {
@@ -60,6 +66,27 @@ std::string describeValues(const node::VolumeSurvey& survey) {
                           gradients.percentile, gradients.maximum));
 }
 
+/// What would keep the picture from being written is found before anything is read.
+void checkPicture(const InfoOptions& options) {
+  std::error_code unknown;
+  if (std::filesystem::equivalent(options.volume, options.gradientHistogram, unknown))
+    fail(ExitCode::kUsage, "--histogram2d {}: this would overwrite the volume",
+         options.gradientHistogram.string());
+  if (options.gradientHistogram.extension() != ".png")
+    fail(ExitCode::kUsage, "--histogram2d {}: expected a name that ends in .png",
+         options.gradientHistogram.string());
+  checkFont();
+  loadPictureEncoder();
+}
+
+/// Collective.
+void writeGradientHistogram(const Communicator& comm, node::BrickSource& source,
+                            const node::VolumeSurvey& survey, const std::filesystem::path& target) {
+  const GradientHistogram histogram = computeGradientHistogram(comm, source, survey);
+  onRoot(comm,
+         [&] { deferInterrupts([&] { writePng(target, drawGradientHistogram(histogram), {}); }); });
+}
+
 }  // namespace
 
 int runCommand(const Communicator& comm, const InfoOptions& options) {
@@ -70,10 +97,13 @@ int runCommand(const Communicator& comm, const InfoOptions& options) {
   VolumeChoice choice;
   choice.file = options.volume;
   options.raw.applyTo(choice);
+  const bool hasPicture = !options.gradientHistogram.empty();
+  if (hasPicture) onRoot(comm, [&] { checkPicture(options); });
   const auto source = openTogether(comm, choice);
   const auto survey =
       node::surveyVolume(comm, *source, {GradientOperatorSet{GradientOperator::kCentral}});
   const Histogram histogram = computeHistogram(comm, *source, survey);
+  if (hasPicture) writeGradientHistogram(comm, *source, survey, options.gradientHistogram);
   if (!comm.isRoot()) return 0;
   const std::string text = describeFile(source->info()) + describeValues(survey) +
                            "histogram    logarithmic\n" +

@@ -1,16 +1,15 @@
 #include "burin/host/material_profile.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstring>
+#include <limits>
 #include <numeric>
+
+#include "voxel_differences.hpp"
 
 namespace burin::host {
 
 namespace {
-
-using node::VoxelType;
 
 /// Magnitudes up to the steepest edge of a voxel across a cube's corner (√3 / 2 of the range).
 constexpr std::size_t kMagnitudeBins = static_cast<std::size_t>(kGradientSteps);
@@ -39,28 +38,6 @@ ValueRange rangeWithoutOutliers(const node::VolumeSurvey& survey) {
   return {survey.lowest, survey.highest};
 }
 
-template <typename Voxel>
-void widen(std::span<const std::byte> bytes, std::vector<float>& values) {
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    Voxel voxel;
-    std::memcpy(&voxel, bytes.data() + i * sizeof(Voxel), sizeof(Voxel));
-    values[i] = static_cast<float>(voxel);
-  }
-}
-
-void widen(VoxelType type, std::span<const std::byte> bytes, std::vector<float>& values) {
-  switch (type) {
-    case VoxelType::kU8:
-      return widen<std::uint8_t>(bytes, values);
-    case VoxelType::kI16:
-      return widen<std::int16_t>(bytes, values);
-    case VoxelType::kU16:
-      return widen<std::uint16_t>(bytes, values);
-    case VoxelType::kF32:
-      return widen<float>(bytes, values);
-  }
-}
-
 /// Of rows and of slices, such that at most `atMost` voxels are looked at.
 int strideFor(glm::ivec3 dims, std::int64_t atMost) {
   const auto voxelsAt = [&](int stride) {
@@ -72,48 +49,18 @@ int strideFor(glm::ivec3 dims, std::int64_t atMost) {
   return stride;
 }
 
-/// Adds slices, which come in ascending order with their neighbours, to a profile.
-class SliceProfiler {
+/// Adds voxels to a profile.
+class VoxelProfiler {
  public:
-  SliceProfiler(const node::VolumeInfo& info, const ValueRange& range, int stride,
-                MaterialProfile& profile)
-      : type_{info.type}, dims_{info.grid.dims}, range_{range}, stride_{stride}, profile_{profile} {
+  VoxelProfiler(const VolumeGrid& grid, const ValueRange& range, MaterialProfile& profile)
+      : range_{range}, profile_{profile} {
     // Differences across two voxels, over their distance.
-    scale_ = 0.5 * kGradientSteps * info.grid.smallestSpacing() / info.grid.spacing /
+    scale_ = 0.5 * kGradientSteps * grid.smallestSpacing() / grid.spacing /
              std::max(range.highest - range.lowest, std::numeric_limits<double>::min());
-    for (auto& slice : slices_)
-      slice.resize(static_cast<std::size_t>(dims_.x) * static_cast<std::size_t>(dims_.y));
   }
 
-  void load(int z, std::span<const std::byte> voxels) { widen(type_, voxels, slice(z)); }
-
-  /// The slices next to z have been loaded.
-  void add(int z) {
-    if (z % stride_ != 0) return;
-    const std::vector<float>& here = slice(z);
-    const std::vector<float>& below = slice(std::max(z - 1, 0));
-    const std::vector<float>& above = slice(std::min(z + 1, dims_.z - 1));
-    for (int y = 0; y < dims_.y; y += stride_) {
-      for (int x = 0; x < dims_.x; ++x) {
-        const std::size_t at = offset(x, y);
-        const glm::dvec3 difference{double{here[offset(std::min(x + 1, dims_.x - 1), y)]} -
-                                        double{here[offset(std::max(x - 1, 0), y)]},
-                                    double{here[offset(x, std::min(y + 1, dims_.y - 1))]} -
-                                        double{here[offset(x, std::max(y - 1, 0))]},
-                                    double{above[at]} - double{below[at]}};
-        count(double{here[at]}, glm::length(difference * scale_));
-      }
-    }
-  }
-
- private:
-  std::vector<float>& slice(int z) { return slices_[static_cast<std::size_t>(z % 3)]; }
-  std::size_t offset(int x, int y) const {
-    return static_cast<std::size_t>(x) +
-           static_cast<std::size_t>(y) * static_cast<std::size_t>(dims_.x);
-  }
-
-  void count(double value, double magnitude) {
+  void operator()(double value, const glm::dvec3& difference) {
+    const double magnitude = glm::length(difference * scale_);
     if (!std::isfinite(magnitude) || !(value >= range_.lowest && value <= range_.highest)) return;
     // Not std::round, a call for each voxel.
     const auto steps =
@@ -125,13 +72,10 @@ class SliceProfiler {
     ++profile_.magnitudeCounts[static_cast<std::size_t>(steps)];
   }
 
-  VoxelType type_;
-  glm::ivec3 dims_;
+ private:
   ValueRange range_;
-  int stride_;
   MaterialProfile& profile_;
   glm::dvec3 scale_{1};
-  std::array<std::vector<float>, 3> slices_;
 };
 
 /// Sums over `radius` bins to either side.
@@ -162,7 +106,6 @@ double MaterialProfile::magnitudeQuantile(double fraction) const {
 MaterialProfile profileMaterials(const Communicator& comm, node::BrickSource& source,
                                  const node::VolumeSurvey& survey, std::int64_t atMost) {
   const node::VolumeInfo& info = source.info();
-  const glm::ivec3 dims = info.grid.dims;
   const ValueRange range = rangeWithoutOutliers(survey);
   MaterialProfile profile;
   profile.histogram = emptyHistogram(info.type, range.lowest, range.highest);
@@ -170,21 +113,7 @@ MaterialProfile profileMaterials(const Communicator& comm, node::BrickSource& so
   profile.squareSums.resize(profile.histogram.counts.size());
   profile.magnitudeCounts.resize(kMagnitudeBins);
 
-  const IndexBox mine = ownSlices(comm, dims);
-  IndexBox withNeighbours = mine;
-  if (!mine.empty()) {
-    withNeighbours.lo.z = std::max(mine.lo.z - 1, 0);
-    withNeighbours.hi.z = std::min(mine.hi.z + 1, dims.z);
-  }
-  SliceProfiler slices{info, range, strideFor(dims, atMost), profile};
-  node::readSlabs(comm, source, std::span{&withNeighbours, 1}, [&](const node::Slab& slab) {
-    const std::size_t bytes = slab.voxels.size() / static_cast<std::size_t>(slab.box.size().z);
-    for (int z = slab.box.lo.z; z < slab.box.hi.z; ++z) {
-      slices.load(z, slab.voxels.subspan(bytes * static_cast<std::size_t>(z - slab.box.lo.z)));
-      if (z - 1 >= mine.lo.z && z - 1 < mine.hi.z) slices.add(z - 1);
-      if (z == dims.z - 1 && z < mine.hi.z) slices.add(z);
-    }
-  });
+  forVoxelDifferences(comm, source, VoxelProfiler{info.grid, range, profile});
   for (auto* sums : {&profile.histogram.counts, &profile.gradientSums, &profile.squareSums,
                      &profile.magnitudeCounts})
     allReduce(comm, std::span{*sums}, MPI_SUM);

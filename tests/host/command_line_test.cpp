@@ -56,6 +56,7 @@ TEST(CommandLine, InfoIsAboutAVolumeOrTheProgram) {
   EXPECT_TRUE(std::get<InfoOptions>(parse({"info", "--build"})).isBuild);
   EXPECT_FALSE(std::get<InfoOptions>(parse({"info", "v.raw"})).isBuild);
   EXPECT_NE(usageError({"info", "v.raw", "--build"}), "");
+  EXPECT_NE(usageError({"info", "--build", "--histogram2d", "h.png"}), "");
 }
 
 TEST(CommandLine, Techniques) {

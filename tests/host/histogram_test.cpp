@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "burin/host/gradient_histogram.hpp"
 #include "support/array_source.hpp"
 #include "support/mpi_test.hpp"
 
@@ -107,6 +108,77 @@ TEST(HistogramText, JoinsBinsIntoColumns) {
   std::string bar = "  ";
   for (int i = 0; i < 64; ++i) bar += "█";
   EXPECT_THAT(text, HasSubstr(bar + "\n"));
+}
+
+/// A ramp of 41 bytes along x that is four times as steep from voxel 30 on; spacing 2 along x.
+GradientHistogram bentRampHistogram() {
+  VolumeGrid grid = gridOf({41, 5, 7});
+  grid.spacing = {2, 1, 1};
+  const auto value = [](glm::ivec3 p) {
+    return static_cast<std::uint8_t>(std::min(p.x, 30) + 4 * std::max(p.x - 30, 0));
+  };
+  ArraySource source = ArraySource::of<std::uint8_t>(grid, node::VoxelType::kU8, value);
+  const auto survey =
+      node::surveyVolume(world(), source, {GradientOperatorSet{GradientOperator::kCentral}});
+  return computeGradientHistogram(world(), source, survey);
+}
+
+TEST(GradientHistogram, CountsValuesByTheirGradients) {
+  const GradientHistogram histogram = bentRampHistogram();
+  EXPECT_NEAR(histogram.scale, 2, 2 * 0x1p-10);  // the steep part, to the survey's bins
+  ASSERT_EQ(histogram.values.counts.size(), 71u);
+  EXPECT_EQ(histogram.values.total(), 41 * 5 * 7);
+  // A quarter of the scale between the ends, an eighth at the first voxel, which lacks a neighbour,
+  // and 5/8 at the bend. The scale is an upper edge: rows are those of a little less.
+  const int rows[] = {15, 31, 79, 127};
+  for (std::size_t value = 0; value < 71; ++value)
+    for (int row = 0; row < kGradientRows; ++row) {
+      const bool isVoxel = value <= 30 || (value - 30) % 4 == 0;
+      const int own = value == 0 ? 0 : value < 30 ? 1 : value == 30 || value == 70 ? 2 : 3;
+      const int expectedRow = value == 70 ? 63 : rows[own];
+      EXPECT_EQ(histogram.at(row, value), isVoxel && row == expectedRow ? 5 * 7 : 0)
+          << value << " " << row;
+    }
+}
+
+TEST(GradientHistogram, IsDrawnWithItsAxes) {
+  const GradientHistogram histogram = bentRampHistogram();
+  const DisplayPicture picture = drawGradientHistogram(histogram);
+  ASSERT_EQ(picture.bytes.size(), 3 * picture.size.pixels());
+  const auto shade = [&](int x, int y) {
+    return int{
+        picture
+            .bytes[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.size.width) +
+                        static_cast<std::size_t>(x))]};
+  };
+  // The plot's left axis is the longest run of ink in any column, the lower one in any row.
+  int left = 0, bottom = 0, longest = 0, widest = 0;
+  for (int x = 0; x < picture.size.width; ++x) {
+    int run = 0;
+    for (int y = 0; y < picture.size.height; ++y) {
+      run = shade(x, y) < 64 ? run + 1 : 0;
+      if (run > longest) {
+        longest = run;
+        left = x;
+      }
+    }
+  }
+  for (int y = 0; y < picture.size.height; ++y) {
+    int run = 0;
+    for (int x = 0; x < picture.size.width; ++x) {
+      run = shade(x, y) < 64 ? run + 1 : 0;
+      if (run > widest) {
+        widest = run;
+        bottom = y;
+      }
+    }
+  }
+  EXPECT_GE(longest, 3 * kGradientRows);
+  ASSERT_GE(widest, 71 * 10);
+  // All counts are alike, so cells are ink or paper: value 20 at row 31, nothing above it.
+  const int column = left + 1 + 20 * 10 + 5;
+  EXPECT_LT(shade(column, bottom - 3 * 31 - 1), 64);
+  EXPECT_EQ(shade(column, bottom - 3 * 40 - 1), 255);
 }
 
 }  // namespace

@@ -40,7 +40,11 @@ TEST(MakeVolume, InfoReadsBackWhatWasMade) {
   EXPECT_THAT(info, HasSubstr("0.5 1 2"));
   EXPECT_THAT(info, HasSubstr("0 … 4095"));  // u16 volumes use 12 bits, the ramp all of them
   EXPECT_THAT(info, HasSubstr("0 NaN, 0 infinite"));
-  EXPECT_EQ(infoOf({folder / "ramp.nrrd"}, 3), info);
+  EXPECT_EQ(infoOf({folder / "ramp.nrrd", "--histogram2d", folder / "h.png"}, 3), info);
+  std::ifstream picture{folder / "h.png", std::ios::binary};
+  std::string signature(4, ' ');
+  picture.read(signature.data(), 4);
+  EXPECT_EQ(signature, "\x89PNG");
 }
 
 TEST(MakeVolume, BadKindAndBadFolder) {

@@ -16,6 +16,10 @@ Finish describeInfo(OptionList& list) {
   list.flag("--build", info->options.isBuild,
             "Describe the program instead: versions, OpenGL, threads, limits")
       .excludes(volume);
+  list.path(
+          "--histogram2d", info->options.gradientHistogram, "FILE",
+          "Draw values against gradient magnitudes (PNG), to lay a transfer function's widgets on")
+      .needs("VOLUME");
   addRawOptions(list, info->raw);
   return [info](int) {
     if (!info->options.isBuild && info->options.volume.empty())

@@ -59,7 +59,8 @@ struct RenderOptions {
 struct InfoOptions {
   std::string volume;  ///< empty if isBuild
   RawLayout raw;
-  bool isBuild = false;  ///< --build: about the program instead of a volume
+  bool isBuild = false;                          ///< --build: about the program instead of a volume
+  std::filesystem::path gradientHistogram = {};  ///< --histogram2d; empty: none
 };
 
 /// burin make-volume
