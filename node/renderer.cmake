@@ -13,6 +13,7 @@ target_include_directories(burin_gl_loader PUBLIC $<BUILD_INTERFACE:${glad_dir}/
 
 set(shader_files
   fullscreen.vert lattice.glsl ownership.glsl opacity.glsl volume.glsl neighbourhood.glsl
+  direction_palette.glsl voxels.glsl palettes.glsl
   skip.glsl preintegration.glsl widgets.glsl sides.glsl shading.glsl caps.glsl position.glsl laplacian.glsl adaptive.glsl
   cells.glsl halving.glsl raycast.glsl slice.glsl resolve.glsl
   styles/surface.glsl styles/boundary.glsl styles/silhouette.glsl styles/fade.glsl styles/light.glsl
@@ -30,9 +31,10 @@ add_custom_command(
 burin_library(node
   SOURCES src/gl.cpp src/osmesa_context.cpp src/egl_context.cpp src/offscreen_context.cpp
           src/thread_share.cpp src/shader_source.cpp
-          src/gl_program.cpp src/curve_code.cpp src/widget_code.cpp src/program_generator.cpp src/transfer_integral.cpp src/transfer_table.cpp
+           src/gl_program.cpp src/curve_code.cpp src/widget_code.cpp src/direction_palette.cpp src/program_generator.cpp
+           src/transfer_integral.cpp src/transfer_table.cpp
           src/visible_values.cpp src/value_scale.cpp src/value_ranges.cpp src/clip_planes.cpp
-          src/visible_blocks.cpp src/macrocells.cpp src/chessboard_distance.cpp
+          src/visible_blocks.cpp src/macrocells.cpp src/dilated_marks.cpp src/chessboard_distance.cpp
           src/step_map.cpp src/brick_texture.cpp src/laplacian_texture.cpp src/brick.cpp src/cost_estimate.cpp
           src/program_uniforms.cpp src/transfer_textures.cpp src/sample_counters.cpp
           src/frame_target.cpp src/layer_images.cpp src/brick_renderer.cpp src/raycaster.cpp

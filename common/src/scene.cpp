@@ -192,6 +192,11 @@ GradientOperatorSet gradientOperatorsNeeded(const Scene& scene) {
   return needed;
 }
 
+bool hasWidgets(const Scene& scene) {
+  return std::ranges::any_of(
+      scene.layers, [](const Layer& layer) { return layer.transferFunction.isTwoDimensional(); });
+}
+
 bool gradientNeeded(const Scene& scene) {
   return !gradientOperatorsNeeded(scene).empty();
 }

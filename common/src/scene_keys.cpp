@@ -2,6 +2,7 @@
 
 #include "annotation_keys.hpp"
 #include "burin/common/combine_name.hpp"
+#include "burin/common/palette_names.hpp"
 #include "camera_keys.hpp"
 #include "layer_keys.hpp"
 
@@ -194,11 +195,36 @@ Codec<Quality> qualityCodec() {
            [](const Q& q) { return std::optional<std::string>{name(q.combine)}; },
            [](Q& q, const std::string& value) {
              q.combine = value == "over" ? Combine::kOver : Combine::kSum;
+           }),
+       field<Q, std::string>(
+           "normals",
+           "Directions of gradients at voxels: exact, or quantised to the nearest of 240 (slices "
+           "only)",
+           word({"exact", "quantised"}),
+           [](const Q& q) { return std::optional<std::string>{name(q.normals)}; },
+           [](Q& q, const std::string& value) {
+             q.normals = value == "quantised" ? Normals::kQuantised : Normals::kExact;
+           }),
+       field<Q, std::string>(
+           "palettes",
+           "Look up colours and styles after filtering, or before: of voxels, filtering what is "
+           "found (slices only; without 'preintegrated')",
+           word({"after", "before"}),
+           [](const Q& q) { return std::optional<std::string>{name(q.palettes)}; },
+           [](Q& q, const std::string& value) {
+             q.palettes = value == "before" ? Palettes::kBefore : Palettes::kAfter;
            })},
       [](const At& at, const Q& quality) {
+        if (quality.palettes == Palettes::kBefore && quality.preintegrated)
+          at.fail(
+              "'palettes' \"before\" classifies voxels, not what lies between values: expected "
+              "'preintegrated' false");
         if (at.node.find("max_error") == nullptr) return;
         if (quality.combine == Combine::kOver)
           at.fail("'max_error' is the distance to what 'combine' \"sum\" converges to");
+        if (quality.normals != Normals::kExact || quality.palettes != Palettes::kAfter)
+          at.fail(
+              "'max_error' is the distance to exact 'normals' and 'palettes' \"after\" filtering");
         for (const char* key : {"step_voxels", "termination"})
           if (at.node.find(key) != nullptr)
             at.fail("'max_error' chooses '{}' itself: give one of the two", key);

@@ -16,6 +16,7 @@ int runCommand(const Communicator& comm, const BenchAccuracyOptions& options) {
   if (options.quick) {
     plan.referenceError = 1e-4;
     plan.sliceSteps = {1};
+    plan.historicSteps = {};
   }
   std::vector<AccuracyMeasurement> rows;
   for (NamedScene& scene : accuracyScenes(comm, options)) {

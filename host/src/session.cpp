@@ -65,6 +65,10 @@ void Session::checkTechnique() const {
                                 options_.worker.precision);
   if (quality.combine != Combine::kSum)
     fail(ExitCode::kUsage, "--reference adds layers up: expected quality.combine \"sum\"");
+  if (quality.normals != Normals::kExact || quality.palettes != Palettes::kAfter)
+    fail(ExitCode::kUsage,
+         "--reference is exact: expected quality.normals \"exact\" and quality.palettes "
+         "\"after\"");
 }
 
 double Session::orbitDeg(int index) const {

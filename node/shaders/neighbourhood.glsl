@@ -9,8 +9,8 @@ struct Neighbourhood {
 
 void addPair(vec3 coordinate, vec3 offset, inout vec3 sum, inout float valid) {
   vec3 away = offset * texelSize;
-  vec2 above = volumeLookUp(coordinate + away);
-  vec2 below = volumeLookUp(coordinate - away);
+  vec2 above = GRADIENT_LOOK_UP(coordinate + away);
+  vec2 below = GRADIENT_LOOK_UP(coordinate - away);
   sum += offset * (above.x - below.x);
   valid *= above.y * below.y;
 }

@@ -44,6 +44,8 @@ void main() {
 #else
   bool visible = sampled && classify(front, back);
 #endif
+#elif defined(PALETTES_BEFORE)
+  bool visible = sampled && classify(cellAt(coordinate));
 #else
   vec2 middle = volumeLookUp(coordinate);
   bool visible = sampled && classify(middle.x) && middle.y > 0.0;

@@ -22,20 +22,36 @@ vec2 volumeLookUp(vec3 coordinate) {
 vec2 volumeLookUp(vec3 coordinate) { return vec2(texture(volume, coordinate).r, 1.0); }
 #endif
 
+#ifdef AT_VOXELS
+// The voxel nearest to a place: the same on all bricks, bit for bit.
+vec2 voxelLookUp(vec3 coordinate) {
+  ivec3 size = textureSize(volume, 0);
+  vec4 texel = texelFetch(volume, clamp(ivec3(floor(coordinate * vec3(size))), ivec3(0), size - 1), 0);
+#ifdef INVALID_VOXELS
+  return texel.rg;
+#else
+  return vec2(texel.r, 1.0);
+#endif
+}
+#define GRADIENT_LOOK_UP voxelLookUp
+#else
+#define GRADIENT_LOOK_UP volumeLookUp
+#endif
+
 vec3 texelSize;  // textureScale, kept over the loop
 
 void prepareVolume() { texelSize = one * textureScale; }
 
 // Central differences of the trilinear field at +-1 voxel, per voxel, not halved. Zero where a tap
-// is not valid. Edges of the texture clamp, which at the volume's border is the definition.
+// is not valid. At a voxel with AT_VOXELS. Edges of the texture clamp, which at the volume's border is the definition.
 vec3 volumeDifferences(vec3 coordinate) {
   vec3 difference;
   float valid = 1.0;
   for (int axis = 0; axis < 3; ++axis) {
     vec3 offset = vec3(0.0);
     offset[axis] = texelSize[axis];
-    vec2 above = volumeLookUp(coordinate + offset);
-    vec2 below = volumeLookUp(coordinate - offset);
+    vec2 above = GRADIENT_LOOK_UP(coordinate + offset);
+    vec2 below = GRADIENT_LOOK_UP(coordinate - offset);
     difference[axis] = above.x - below.x;
     valid *= above.y * below.y;
   }

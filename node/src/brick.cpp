@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "chessboard_distance.hpp"
+#include "dilated_marks.hpp"
 
 namespace burin::node {
 
@@ -37,6 +38,7 @@ void Brick::upload(const IndexBox& box, std::span<const std::byte> voxels, Stagi
 void Brick::classify(const VisibleValues& visible, std::span<const glm::vec4> clipPlanes) {
   std::vector<std::uint8_t> marks =
       macrocells_.mark([&](float lowest, float highest) { return visible.any(lowest, highest); });
+  dilateMarks(marks, macrocells_.size(), visible.reach(kMacrocellSize));
   clearClipped(marks, macrocells_.cubes(), clipPlanes, grid_);
   const IndexBox marked = macrocells_.boxOf(marks);
   visibleCells_ = marked.empty()

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "burin/common/error.hpp"
 #include "curve_code.hpp"
@@ -28,11 +29,6 @@ std::string typeOf(const ParameterSpec& parameter) {
 bool usedAnywhere(const Scene& scene, std::string_view style) {
   return std::ranges::any_of(scene.layers,
                              [&](const Layer& layer) { return layer.style(style) != nullptr; });
-}
-
-bool hasWidgets(const Scene& scene) {
-  return std::ranges::any_of(
-      scene.layers, [](const Layer& layer) { return layer.transferFunction.isTwoDimensional(); });
 }
 
 bool positionNeeded(const Scene& scene) {
@@ -99,6 +95,10 @@ bool needsNeighbourhood(const GradientOperatorSet& operators) {
   return !GradientOperatorSet{GradientOperator::kCentral}.contains(operators);
 }
 
+bool quantisesNormals(const Scene& scene) {
+  return scene.quality.normals == Normals::kQuantised && gradientNeeded(scene);
+}
+
 std::string normalOrientation(const StyleSettings* gradient) {
   const std::string word = gradient == nullptr ? "outward" : gradient->word("normal");
   if (word == "inward") return "kNormalInward";
@@ -111,25 +111,59 @@ std::string gradientName(GradientOperator which) {
   return which == GradientOperator::kRegression ? "regressionGradient" : "centralGradient";
 }
 
+/// The matrix that makes a gradient of differences, as copied before the loop.
+constexpr const char* kToGradient = "kept_differencesToGradient";
+
+/// A loop over the voxels of a cell: `coordinate` is where one lies, `share` its weight.
+std::string cornerLoop(std::string_view cell, const std::string& statements) {
+  return fmt::format(
+      "  Cell cell = {};\n  for (int corner = 0; corner < 8; ++corner) {{\n"
+      "    vec3 coordinate = cornerCoordinate(cell, corner);\n"
+      "    float share = cornerShare(cell, corner);\n{}  }}\n",
+      cell, statements);
+}
+
+/// What the differences at `coordinate` are taken from, if from more than the six face neighbours.
+std::string neighbourhoodCode(const GradientOperatorSet& operators) {
+  return needsNeighbourhood(operators) ? "  Neighbourhood around = neighbourhoodAt(coordinate);\n"
+                                       : "";
+}
+
+/// The gradient there by one of the operators.
+std::string gradientExpression(GradientOperator which, const GradientOperatorSet& operators) {
+  const OperatorWeights weights = operatorWeights(which);
+  std::string differences = "volumeDifferences(coordinate)";
+  if (needsNeighbourhood(operators))
+    differences = which == GradientOperator::kCentral
+                      ? "(around.facesValid * around.faces)"
+                      : fmt::format("weighted(around, vec3({:.9g}, {:.9g}, {:.9g}))", weights.face,
+                                    weights.edge, weights.corner);
+  return fmt::format("{} * {}", kToGradient, differences);
+}
+
 /// Statements for the gradients of a scene and their magnitudes, each operator's once.
-/// `toGradient`: the matrix that makes a gradient of differences.
-std::string gradientCode(const GradientOperatorSet& operators, const std::string& toGradient) {
-  std::string text;
-  const bool facesAlone = !needsNeighbourhood(operators);
-  if (!facesAlone) text += "  Neighbourhood around = neighbourhoodAt(coordinate);\n";
+std::string gradientCode(const GradientOperatorSet& operators, Normals normals) {
+  const char* const palette = normals == Normals::kQuantised ? "quantisedGradient" : "";
+  std::string text = neighbourhoodCode(operators);
+  for (const GradientOperator which : kAllGradientOperators)
+    if (operators.contains(which))
+      text += fmt::format("  vec3 {0} = {1}({2});\n  float {0}Magnitude = length({0});\n",
+                          gradientName(which), palette, gradientExpression(which, operators));
+  return text;
+}
+
+/// The same of gradients that are quantised at voxels and then filtered.
+std::string filteredGradientCode(const GradientOperatorSet& operators) {
+  std::string before, within, after;
   for (const GradientOperator which : kAllGradientOperators) {
     if (!operators.contains(which)) continue;
-    const OperatorWeights weights = operatorWeights(which);
-    std::string differences = "volumeDifferences(coordinate)";
-    if (!facesAlone)
-      differences = which == GradientOperator::kCentral
-                        ? "(around.facesValid * around.faces)"
-                        : fmt::format("weighted(around, vec3({:.9g}, {:.9g}, {:.9g}))",
-                                      weights.face, weights.edge, weights.corner);
-    text += fmt::format("  vec3 {0} = {1} * {2};\n  float {0}Magnitude = length({0});\n",
-                        gradientName(which), toGradient, differences);
+    const std::string name = gradientName(which);
+    before += fmt::format("  vec3 {} = vec3(0.0);\n", name);
+    within += fmt::format("    {} += share * quantisedGradient({});\n", name,
+                          gradientExpression(which, operators));
+    after += fmt::format("  float {0}Magnitude = length({0});\n", name);
   }
-  return text;
+  return before + cornerLoop("cellAt(coordinate)", neighbourhoodCode(operators) + within) + after;
 }
 
 /// Everything generated for the layers, in the order in which it must appear.
@@ -140,6 +174,7 @@ class LayerCode {
       : scene_{scene},
         pass_{pass},
         gradients_{gradientOperatorsNeeded(scene)},
+        palettesBefore_{scene.quality.palettes == Palettes::kBefore},
         hasCaps_{!cappedPlanes(scene).empty()} {
     for (std::size_t i = 0; i < scene.layers.size(); ++i) add(i);
   }
@@ -162,10 +197,16 @@ class LayerCode {
       magnitude = magnitudeOf(i, layer);
       addWidgets(i, number, magnitude);
     }
-    body_ += fmt::format("    Shading s = Shading({1}, extinction{0}, vec3(0.0), 0.0, 1.0);\n",
-                         number, byGradient ? "widgetColour" : colourOf(number, ownLines));
-    if (gradientNeededBy(layer)) addSurface(i, layer, magnitude);
-    addStyles(i, layer);
+    const std::string colour = byGradient ? "widgetColour" : colourOf(number, ownLines);
+    const bool fromPalette = palettesBefore_ && gradientNeededBy(layer);
+    if (fromPalette) addStylePalette(i, layer);
+    body_ += fmt::format(fromPalette
+                             ? "    Shading s = styled({}, extinction{}, palette);\n"
+                             : "    Shading s = Shading({}, extinction{}, vec3(0.0), 0.0, 1.0);\n",
+                         colour, number);
+    if (gradientNeededBy(layer) && !fromPalette) addSurface(i, layer, magnitude);
+    addStyles(i, layer,
+              [&](const StyleSpec& style) { return !fromPalette || !style.needsGradient; });
     addResult(lines);
     body_ += "  }\n";
   }
@@ -178,6 +219,8 @@ class LayerCode {
     uniforms_ += fmt::format("float extinction{};\n", i);  // of the segment classified last
     if (scene_.quality.preintegrated) {
       addSegmentClass(i);
+    } else if (palettesBefore_) {
+      addVoxelClasses(i);
     } else {
       addMiddleClass(i);
     }
@@ -194,6 +237,16 @@ class LayerCode {
         "  class{0} = texture({1}, vec2((x{0} + 0.5) * scale{0}.w, 0.0));\n"
         "  extinction{0} = x{0} > {2}.x && x{0} < {2}.y ? class{0}.a : 0.0;\n",
         i, transferUniform(i), bins);
+  }
+
+  /// The classes of the voxels around, filtered.
+  void addVoxelClasses(std::size_t i) {
+    uniforms_ += fmt::format("vec4 class{};\n", i);
+    const std::string bins = keepUniform("vec2", visibleBinsUniform(i), uniforms_, prepare_);
+    classify_ += fmt::format("    class{0} += share * paletteEntry({1}, scale{0}, {2}, voxel.x);\n",
+                             i, transferUniform(i), bins);
+    begin_ += fmt::format("  class{} = vec4(0.0);\n", i);
+    finish_ += fmt::format("  class{0} *= whole;\n  extinction{0} = class{0}.a;\n", i);
   }
 
   /// Means over the values between the segment's ends.
@@ -291,6 +344,20 @@ class LayerCode {
                            normalOrientation(layer.style("gradient")));
   }
 
+  /// What the styles by gradient make of black and of white at the voxels around, filtered.
+  void addStylePalette(std::size_t i, const Layer& layer) {
+    body_ += "    StylePalette palette = noPalette();\n";
+    const std::string before = std::exchange(body_, "");
+    addSurface(i, layer, {});
+    body_ += "    for (int grey = 0; grey < 2; ++grey) {\n    Shading s = unstyled(float(grey));\n";
+    addStyles(i, layer, [](const StyleSpec& style) { return style.needsGradient; });
+    body_ +=
+        "    if (grey == 0) addShare(palette.black, share, s);\n"
+        "    else addShare(palette.white, share, s);\n    }\n";
+    body_ = before + cornerLoop("cellAt(coordinate)",
+                                gradientCode(gradients_, scene_.quality.normals) + body_);
+  }
+
   /// What a style is given beside the shading and its parameters.
   std::string_view looksAt(const StyleSpec& style) const {
     if (style.needsLaplacian) return "laplacian, ";
@@ -298,10 +365,12 @@ class LayerCode {
     return hasCaps_ && style.seesCuts ? "cut, " : "g, ";
   }
 
-  void addStyles(std::size_t i, const Layer& layer) {
+  /// Those that `isMeant`.
+  template <typename IsMeant>
+  void addStyles(std::size_t i, const Layer& layer, const IsMeant& isMeant) {
     for (const StyleSettings& settings : layer.styles) {
       const StyleSpec& style = *findStyle(settings.name);
-      if (!style.hasSnippet) continue;
+      if (!style.hasSnippet || !isMeant(style)) continue;
       const ParameterCode code = parameterCode(settings, style, i, curves_);
       uniforms_ += code.uniforms;
       prepare_ += code.prepare;
@@ -356,20 +425,32 @@ class LayerCode {
     std::string text;
     std::string prepare = prepare_ + curves_.prepare();
     if (hasCaps_) prepare += "  prepareCaps();\n";
-    const std::string toGradient =
-        gradients_.empty() ? "" : keepUniform("mat3", "differencesToGradient", text, prepare);
+    if (!gradients_.empty()) keepUniform("mat3", "differencesToGradient", text, prepare);
+    if (quantisesNormals(scene_)) prepare += "  prepareDirections();\n";
     text += "void prepareLayers() {\n" + prepare + "}\n";
     if (preintegrated)
       text += "void classifySide(inout Side side) {\n" + ends_ + "}\n#include \"sides.glsl\"\n";
-    text += fmt::format("bool classify({}) {{\n",
-                        preintegrated ? "Side front, Side back" : "float middle");
-    text += classify_ + "  return " + total_ + " > 0.0;\n}\n";
+    if (palettesBefore_) {
+      text += "bool classify(Cell around) {\n" + begin_ + "  float valid = 0.0;\n" +
+              cornerLoop("around",
+                         "    vec2 voxel = voxelLookUp(coordinate);\n    share *= voxel.y;\n"
+                         "    valid += share;\n" +
+                             classify_) +
+              "  float whole = valid >= 0.5 ? 1.0 / valid : 0.0;\n" + finish_;
+    } else {
+      text += fmt::format("bool classify({}) {{\n",
+                          preintegrated ? "Side front, Side back" : "float middle");
+      text += classify_;
+    }
+    text += "  return " + total_ + " > 0.0;\n}\n";
     if (isAdaptive(scene_.quality))
       text += "float changeBeyond(Side edge, Side beyond) {\n  return " + beyond_ + ";\n}\n";
     text += fmt::format(
         "void shade(vec3 coordinate, {}vec3 toEye, out vec3 colour, out float extinction) {{\n",
         preintegrated ? "Side front, Side back, " : "");
-    text += gradientCode(gradients_, toGradient);
+    if (!palettesBefore_)
+      text += quantisesNormals(scene_) ? filteredGradientCode(gradients_)
+                                       : gradientCode(gradients_, Normals::kExact);
     if (hasCaps_) text += "  vec4 cap = capAt(coordinate);\n";
     if (laplacianNeeded(scene_)) text += "  float laplacian = laplacianAt(coordinate);\n";
     text += "  colour = vec3(0.0);\n  extinction = 0.0;\n" + body_;
@@ -380,10 +461,12 @@ class LayerCode {
   const Scene& scene_;
   std::optional<LayerPass> pass_;
   GradientOperatorSet gradients_;
+  bool palettesBefore_;
   bool hasCaps_;
   CurveCode curves_;
   std::size_t classes_ = 0;
   std::string uniforms_, prepare_, ends_, classify_, beyond_, total_, body_;
+  std::string begin_, finish_;  // of classify(), around a loop over voxels
 };
 
 }  // namespace
@@ -449,9 +532,16 @@ std::string programHead(const Scene& scene, const ProgramOptions& options,
   if (scene.quality.preintegrated)
     text +=
         fmt::format("#define PREINTEGRATED\n#define LAYERS {}\n", transferFunctions(scene).size());
+  const bool palettesBefore = scene.quality.palettes == Palettes::kBefore;
+  const bool atVoxels = palettesBefore || quantisesNormals(scene);
+  if (atVoxels) text += "#define AT_VOXELS\n";
+  if (palettesBefore) text += "#define PALETTES_BEFORE\n";
   for (const char* file : {"lattice.glsl", "ownership.glsl", "opacity.glsl", "volume.glsl",
                            "skip.glsl", "shading.glsl"})
     text += fmt::format("#include \"{}\"\n", file);
+  if (atVoxels) text += "#include \"voxels.glsl\"\n";
+  if (quantisesNormals(scene)) text += "#include \"direction_palette.glsl\"\n";
+  if (palettesBefore) text += "#include \"palettes.glsl\"\n";
   if (caps > 0) text += "#include \"caps.glsl\"\n";
   if (laplacianNeeded(scene)) text += "#include \"laplacian.glsl\"\n";
   if (needsNeighbourhood(gradientOperatorsNeeded(scene)))

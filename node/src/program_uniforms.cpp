@@ -5,6 +5,7 @@
 #include "burin/common/sample_lattice.hpp"
 #include "clip_planes.hpp"
 #include "curve_code.hpp"
+#include "direction_palette.hpp"
 #include "program_generator.hpp"
 #include "transfer_textures.hpp"
 #include "widget_code.hpp"
@@ -121,6 +122,15 @@ void setStyleUniforms(const GlProgram& program, const Layer& layer,
   }
 }
 
+void setDirectionPalette(const GlProgram& program) {
+  const DirectionPalette palette = directionPalette();
+  std::vector<glm::vec3> mirrors, directions;
+  for (const glm::dvec3& mirror : palette.mirrors) mirrors.push_back(toFloat(mirror));
+  for (const glm::dvec3& direction : palette.directions) directions.push_back(toFloat(direction));
+  program.set("mirrors", mirrors);
+  program.set("paletteDirections", directions);
+}
+
 /// `textureOffset`: of that name in volume.glsl.
 void setCapUniforms(const GlProgram& program, const Scene& scene, const VolumeGrid& grid,
                     const IndexBox& storedVoxels, const glm::dvec3& textureOffset) {
@@ -159,6 +169,8 @@ void setSceneUniforms(const GlProgram& program, const Scene& scene, const Progra
   program.set("differencesToGradient",
               glm::mat3{glm::transpose(volume.grid.worldToIndex()) *
                         (0.5 * volume.scale.range / gradientUnit(volume.gradients))});
+
+  if (scene.quality.normals == Normals::kQuantised) setDirectionPalette(program);
 
   std::vector<glm::vec3> lightColours;
   for (const Light& light : scene.lights)

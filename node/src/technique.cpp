@@ -18,6 +18,12 @@ void checkTechnique(const Scene& scene, Technique technique, Precision precision
     if (scene.quality.combine == Combine::kOver)
       fail(ExitCode::kUsage,
            "quality.combine: \"over\" is drawn by slices only (--technique slices)");
+    if (scene.quality.normals == Normals::kQuantised)
+      fail(ExitCode::kUsage,
+           "quality.normals: \"quantised\" is drawn by slices only (--technique slices)");
+    if (scene.quality.palettes == Palettes::kBefore)
+      fail(ExitCode::kUsage,
+           "quality.palettes: \"before\" is drawn by slices only (--technique slices)");
     if (precision != Precision::kFloat)
       fail(ExitCode::kUsage,
            "precision {} is one of slices' framebuffer (--technique slices), rays add up in float",
@@ -31,6 +37,10 @@ void checkTechnique(const Scene& scene, Technique technique, Precision precision
     fail(ExitCode::kUsage,
          "quality.max_error with pre-integration is a matter of each ray, not of slices: expected "
          "--technique raycast, quality.preintegrated false, or quality.step_voxels");
+  } else if (scene.quality.palettes == Palettes::kBefore && hasWidgets(scene)) {
+    fail(ExitCode::kUsage,
+         "quality.palettes: \"before\" looks values up, not the widgets of a two-dimensional "
+         "transfer function: expected \"after\"");
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "burin/common/error.hpp"
+#include "dilated_marks.hpp"
 
 namespace burin::node {
 
@@ -29,6 +30,7 @@ std::vector<std::uint8_t> VisibleBlocks::mark(const VisibleValues& visible,
                                               const VolumeGrid& grid) const {
   std::vector<std::uint8_t> marks =
       ranges_.mark([&](float lowest, float highest) { return visible.any(lowest, highest); });
+  dilateMarks(marks, ranges_.size, visible.reach(blockCells_));
   clearClipped(marks, cubes(), clipPlanes, grid);
   return marks;
 }

@@ -10,6 +10,10 @@ namespace {
 /// Of a stored value, relative: filtering equal texels, and where the table begins in a float.
 constexpr double kRounding = 1e-6;
 
+/// Voxels, more than a sample's place rounds by. With palettes before filtering the eight voxels
+/// around it count, so one beyond a cube's face by that much may see voxels on the other side.
+constexpr double kPlaceRounding = 1e-3;
+
 /// The next float downwards, or upwards, so that rounding never narrows an interval.
 float below(double x) {
   if (x == 0) return 0;
@@ -32,6 +36,7 @@ std::vector<TransferTable> transferTables(const Scene& scene, const ValueScale& 
 
 VisibleValues::VisibleValues(const Scene& scene, std::span<const TransferTable> tables,
                              const ValueScale& scale) {
+  if (scene.quality.palettes == Palettes::kBefore) reach_ = kPlaceRounding;
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const std::vector<TransferFunction> functions = transferFunctions(scene);
   for (std::size_t i = 0; i < tables.size(); ++i) {
@@ -68,6 +73,10 @@ VisibleValues::VisibleValues(const Scene& scene, std::span<const TransferTable> 
       merged.push_back(interval);
   }
   intervals_ = std::move(merged);
+}
+
+int VisibleValues::reach(int cubeCells) const {
+  return static_cast<int>(std::ceil(reach_ / cubeCells));
 }
 
 }  // namespace burin::node

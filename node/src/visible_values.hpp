@@ -28,12 +28,17 @@ class VisibleValues {
     return false;
   }
 
+  /// How many cubes of that many cells a scene may show something beyond those that hold visible
+  /// values.
+  int reach(int cubeCells) const;
+
  private:
   struct Interval {
     float lowest, highest;
   };
 
   std::vector<Interval> intervals_;  ///< ascending
+  double reach_ = 0;                 ///< voxels
 };
 
 }  // namespace burin::node

@@ -101,7 +101,8 @@ struct Shown {
 };
 
 bool showsTheSame(const Scene& a, const Scene& b) {
-  return a.clip == b.clip && a.clipBox == b.clipBox && transferFunctions(a) == transferFunctions(b);
+  return a.clip == b.clip && a.clipBox == b.clipBox && a.quality.palettes == b.quality.palettes &&
+         transferFunctions(a) == transferFunctions(b);
 }
 
 }  // namespace

@@ -22,8 +22,7 @@ class Maker {
     s.clip = several<ClipPlane>(0, [&] { return ClipPlane{vector(), any(), chance()}; });
     if (chance()) s.clipBox = clipBox();
     if (chance())
-      s.quality = {real(kSmallestStepVoxels, 100), real(0, 0.5), chance(), std::nullopt,
-                   chance() ? Combine::kSum : Combine::kOver};
+      s.quality = quality();
     else
       s.quality.maxError = real(1e-4, 0.5);
     if (chance()) s.annotations = annotations();
@@ -37,6 +36,13 @@ class Maker {
     // Now and then a round number, which people write and which must not lose its type.
     const double x = std::uniform_real_distribution<double>{lo, hi}(random_);
     return chance() ? x : std::clamp(std::round(x), lo, hi);
+  }
+  Quality quality() {
+    Quality q{real(kSmallestStepVoxels, 100), real(0, 0.5), chance(), std::nullopt,
+              chance() ? Combine::kSum : Combine::kOver};
+    q.normals = chance() ? Normals::kExact : Normals::kQuantised;
+    if (!q.preintegrated && chance()) q.palettes = Palettes::kBefore;
+    return q;
   }
   /// Any magnitude that a double has.
   double any() { return std::ldexp(real(-1, 1), whole(-1070, 1020)); }

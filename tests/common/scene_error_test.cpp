@@ -25,7 +25,7 @@ TEST(SceneError, UnknownKeyNamesPlacePathAndNearest) {
             "s.json:2:1: qualty: unknown key; did you mean 'quality'?");
   EXPECT_EQ(complaint(with(R"("quality": { "error": 0.1 })")),
             "s.json:2:14: quality.error: unknown key; expected one of 'step_voxels', "
-            "'termination', 'preintegrated', 'max_error', 'combine'");
+            "'termination', 'preintegrated', 'max_error', 'combine', 'normals', 'palettes'");
 }
 
 TEST(SceneError, ColumnsCountCharactersAndTabs) {
@@ -257,6 +257,12 @@ INSTANTIATE_TEST_SUITE_P(
              "quality.combine: 'ovr' is unknown; did you mean 'over'?"},
         Case{R"("quality": { "max_error": 0.01, "combine": "over" })",
              "quality: 'max_error' is the distance to what 'combine' \"sum\" converges to"},
+        Case{R"("quality": { "palettes": "before" })",
+             "quality: 'palettes' \"before\" classifies voxels, not what lies between values: "
+             "expected 'preintegrated' false"},
+        Case{R"("quality": { "max_error": 0.01, "normals": "quantised" })",
+             "quality: 'max_error' is the distance to exact 'normals' and 'palettes' \"after\" "
+             "filtering"},
         Case{R"("quality": { "preintegrated": 1 })",
              "quality.preintegrated: expected true or false, found 1"}));
 

@@ -61,6 +61,9 @@ TEST_P(Failures, TechniqueThatCannotDrawTheScene) {
   const std::string over = "quality.combine=over";
   expectFailure({"render", scene, "-o", picture, "--set", over}, 2, "slices only");
   expectFailure({"render", scene, "-o", picture, "--set", over, "--reference"}, 2, "combine");
+  expectFailure(
+      {"render", scene, "-o", picture, "--set", "quality.normals=quantised", "--reference"}, 2,
+      "quality.normals");
   expectFailure({"render", scene, "-o", picture, "--set", "quality.max_error=0.1", "--technique",
                  "slices", "--precision", "byte"},
                 2, "quality.max_error");

@@ -319,6 +319,16 @@ TEST(Slices, WhatATechniqueCannotDrawIsRefused) {
   Scene over = resolved(sceneWithStyle("plain"), source);
   over.quality.combine = Combine::kOver;
   EXPECT_THAT(refusal(over, source, {}), testing::HasSubstr("drawn by slices only"));
+  Scene quantised = resolved(sceneWithStyle("plain"), source);
+  quantised.quality.normals = Normals::kQuantised;
+  EXPECT_THAT(refusal(quantised, source, {}), testing::HasSubstr("quality.normals"));
+  Scene paletted = resolved(sceneWithStyle("plain"), source);
+  paletted.quality.palettes = Palettes::kBefore;
+  paletted.quality.preintegrated = false;
+  EXPECT_THAT(refusal(paletted, source, {}), testing::HasSubstr("quality.palettes"));
+  paletted.layers = sceneWithStyle("widgets").layers;
+  EXPECT_THAT(refusal(paletted, source, {.technique = Technique::kSlices}),
+              testing::HasSubstr("two-dimensional"));
   const Scene plain = resolved(sceneWithStyle("plain"), source);
   EXPECT_THAT(refusal(plain, source, {.precision = Precision::kByte}),
               testing::HasSubstr("precision byte"));

@@ -53,11 +53,39 @@ std::vector<AccuracyMeasurement> slicesOf(const std::string& scene, bool several
   return ways;
 }
 
+/// What Lum and Ma's hardware did, each by itself on top of float slices without pre-integration,
+/// then all of it.
+std::vector<AccuracyMeasurement> historicOf(const Scene& scene, const std::string& name,
+                                            const AccuracyPlan& plan) {
+  std::vector<AccuracyMeasurement> ways;
+  const auto add = [&](Normals normals, Palettes palettes, bool isHardware) {
+    for (const double step : plan.historicSteps) {
+      AccuracyMeasurement& way = ways.emplace_back();
+      way.scene = name;
+      way.technique = node::Technique::kSlices;
+      way.preintegrated = false;
+      way.normals = normals;
+      way.palettes = palettes;
+      way.stepVoxels = step;
+      if (!isHardware) continue;
+      way.precision = node::Precision::kByte;
+      way.combine = Combine::kOver;
+    }
+  };
+  add(Normals::kExact, Palettes::kAfter, false);
+  if (gradientNeeded(scene)) add(Normals::kQuantised, Palettes::kAfter, false);
+  add(Normals::kExact, Palettes::kBefore, false);
+  add(Normals::kQuantised, Palettes::kBefore, true);
+  return ways;
+}
+
 /// The plan's ways of drawing, not yet measured.
 std::vector<AccuracyMeasurement> waysOf(const NamedScene& scene, const AccuracyPlan& plan) {
   std::vector<AccuracyMeasurement> ways = raysOf(scene.name, plan);
   const auto slices = slicesOf(scene.name, hasSeveralPasses(scene.prepared.scene), plan);
   ways.insert(ways.end(), slices.begin(), slices.end());
+  const auto historic = historicOf(scene.prepared.scene, scene.name, plan);
+  ways.insert(ways.end(), historic.begin(), historic.end());
   return ways;
 }
 
@@ -68,6 +96,8 @@ Quality qualityOf(const AccuracyMeasurement& way) {
   // Steps are compared by themselves: rays end only where nothing could be seen any more.
   if (way.stepVoxels) quality = {*way.stepVoxels, 1e-4, way.preintegrated, {}};
   quality.combine = way.combine;
+  quality.normals = way.normals;
+  quality.palettes = way.palettes;
   return quality;
 }
 

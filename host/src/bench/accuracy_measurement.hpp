@@ -17,6 +17,8 @@ struct AccuracyMeasurement {
   node::Technique technique = node::Technique::kRaycast;
   node::Precision precision = node::Precision::kFloat;
   Combine combine = Combine::kSum;
+  Normals normals = Normals::kExact;
+  Palettes palettes = Palettes::kAfter;
   bool preintegrated = true;
   std::optional<double> stepVoxels;  ///< unset: chosen for maxErrorAsked
   std::optional<double> maxErrorAsked;
@@ -30,6 +32,7 @@ struct AccuracyPlan {
   std::vector<double> steps{4, 2, 1, 0.5, 0.25, 0.125};
   std::vector<double> maxErrors{1.0 / 32, 1.0 / 128, 1.0 / 512};
   std::vector<double> sliceSteps{2, 1, 0.5, 0.25};  ///< of slices, in every precision
+  std::vector<double> historicSteps{1, 0.5};        ///< of slices as hardware drew them
   double referenceError = 2e-5;                     ///< that the truth is asked for
   int repeats = 5;
 };

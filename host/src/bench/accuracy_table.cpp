@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "burin/common/combine_name.hpp"
+#include "burin/common/palette_names.hpp"
 
 namespace burin::host::bench {
 
@@ -27,10 +28,18 @@ bool isSliced(const Row& row) {
   return row.technique == node::Technique::kSlices;
 }
 
+/// What of hardware with palettes is in a row.
+std::string paletteWay(const Row& row) {
+  std::string text;
+  if (row.normals == Normals::kQuantised) text += ", 240 normals";
+  if (row.palettes == Palettes::kBefore) text += ", palettes first";
+  return text + (row.preintegrated ? "" : ", midpoint");
+}
+
 std::string wayOf(const Row& row) {
   if (isSliced(row))
-    return fmt::format("slices, {}, {}, step {:g}", name(row.precision), name(row.combine),
-                       *row.stepVoxels);
+    return fmt::format("slices, {}, {}{}, step {:g}", name(row.precision), name(row.combine),
+                       paletteWay(row), *row.stepVoxels);
   const std::string how = row.preintegrated ? "pre-integrated" : "midpoint";
   if (row.maxErrorAsked) return fmt::format("{}, max_error 1/{:.0f}", how, 1 / *row.maxErrorAsked);
   return fmt::format("{}, step {:g}", how, *row.stepVoxels);
@@ -73,7 +82,7 @@ std::string diagram(std::string_view scene, bool severalPasses, std::string_view
   const auto slices = [&](std::string_view precision, std::string_view combine, int colour) {
     curves.push_back(
         curve(fmt::format("{} && strcol('technique') eq 'slices' && strcol('precision') eq '{}' && "
-                          "strcol('combine') eq '{}'",
+                          "strcol('combine') eq '{}' && column('preintegrated') == 1",
                           here, precision, combine),
               x, fmt::format("linespoints lc {} pt 8 dt 2", colour),
               combine == "over" ? fmt::format("slices, {}, over", precision)
@@ -102,15 +111,16 @@ bool isOnFront(const Row& row, std::span<const Row> rows) {
 std::string accuracyCsv(std::span<const Row> rows) {
   std::string text =
       "volume,scene,technique,precision,preintegrated,step_voxels,max_error_asked,median_ms,"
-      "samples_visited,error_max,error_rms,error_delta_e,reference_change,pareto,combine\n";
+      "samples_visited,error_max,error_rms,error_delta_e,reference_change,pareto,combine,normals,"
+      "palettes\n";
   for (const Row& row : rows)
     text += fmt::format(
         "{0},{0},{11},{12},{1},{2},{3},{4:.4g},{5},{6:.4g},{7:.4g},{8:.4g},"
-        "{9:.3g},{10},{13}\n",
+        "{9:.3g},{10},{13},{14},{15}\n",
         row.scene, row.preintegrated ? 1 : 0, orZero(row.stepVoxels), orZero(row.maxErrorAsked),
         row.medianMs, row.samplesVisited, row.error.largest, row.error.rms, row.error.deltaE,
         row.referenceChange, isOnFront(row, rows) ? 1 : 0, name(row.technique), name(row.precision),
-        name(row.combine));
+        name(row.combine), name(row.normals), name(row.palettes));
   return text;
 }
 
@@ -120,11 +130,11 @@ std::string accuracySummary(std::span<const Row> rows) {
     const auto first = std::ranges::find(rows, scene, &Row::scene);
     text += fmt::format("{}: the reference changes by {:.2g} when it is asked for twice as much\n",
                         scene, first->referenceChange);
-    text += fmt::format("  {:34} {:>10} {:>12} {:>9} {:>9} {:>8}\n", "", "median ms", "samples",
+    text += fmt::format("  {:60} {:>10} {:>12} {:>9} {:>9} {:>8}\n", "", "median ms", "samples",
                         "max", "rms", "delta E");
     for (const Row& row : rows) {
       if (row.scene != scene) continue;
-      text += fmt::format("{} {:34} {:10.2f} {:12} {:9.2g} {:9.2g} {:8.2f}",
+      text += fmt::format("{} {:60} {:10.2f} {:12} {:9.2g} {:9.2g} {:8.2f}",
                           isOnFront(row, rows) ? " *" : "  ", wayOf(row), row.medianMs,
                           row.samplesVisited, row.error.largest, row.error.rms, row.error.deltaE);
       if (row.maxErrorAsked) {

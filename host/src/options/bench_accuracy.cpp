@@ -10,10 +10,11 @@ namespace {
 
 constexpr const char* kAccuracyFooter =
     R"(Draws the built-in scenes (or INPUT) at fixed steps and for max_error settings, with and without
-pre-integration, and as slices in float, half and byte framebuffers, in turns, and compares with the
-double-precision reference, which has no step; its own change when it is asked for twice as much is
-shown. Writes accuracy.csv and accuracy.png (gnuplot: error against time and samples, the Pareto front
-marked) to the folder.)";
+pre-integration, and as slices: in float, half and byte framebuffers and, not with --quick, with
+quantised normals and palettes before filtering. All in turns, compared with the double-precision
+reference, which has no step; its own change when it is asked for twice as much is shown. Writes
+accuracy.csv and accuracy.png (gnuplot: error against time and samples, the Pareto front marked) to
+the folder.)";
 
 }  // namespace
 

@@ -109,6 +109,18 @@ enum class Combine {
   kOver,  ///< one drawn over the other, as Lum & Ma did; changes with the step
 };
 
+/// What a voxel's gradient direction is.
+enum class Normals {
+  kExact,
+  kQuantised,  ///< the nearest of 240 directions, as 8 bits for one leave room for
+};
+
+/// When what values and gradients look like is looked up.
+enum class Palettes {
+  kAfter,   ///< after filtering: of the values and gradients at a sample
+  kBefore,  ///< of voxels, as paletted textures do; what is found is filtered
+};
+
 struct Quality {
   double stepVoxels = 0.5;
   double termination = 0.002;  ///< rays end when transmittance < termination; 0: never
@@ -119,6 +131,8 @@ struct Quality {
   /// renderer then samples as finely as that takes, and rays end at a sixteenth of it.
   std::optional<double> maxError;
   Combine combine = Combine::kSum;
+  Normals normals = Normals::kExact;
+  Palettes palettes = Palettes::kAfter;
   friend bool operator==(const Quality&, const Quality&) = default;
 };
 
@@ -176,6 +190,9 @@ inline constexpr double kCapVoxels = 1;
 
 /// Unit world direction to the light.
 glm::dvec3 lightDirectionWorld(const Light& light, const Camera& camera);
+
+/// Is the transfer function of any layer two-dimensional?
+bool hasWidgets(const Scene& scene);
 
 /// Largest ghost width that any layer's styles declare, two-dimensional transfer functions take or
 /// that the ends of pre-integrated segments need; 0 if nothing looks beyond a brick's own cells.
