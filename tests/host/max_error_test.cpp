@@ -46,6 +46,24 @@ TEST(MaxError, IsKept) {
   }
 }
 
+// A region's edges in value are cut at, those in gradient are found by halving.
+TEST(MaxError, IsKeptByTwoDimensionalTransferFunctions) {
+  const Communicator comm{MPI_COMM_WORLD};
+  PreparedScene scene = prepared({"marschner-lobb", 0, 1, 0, false, 20});
+  scene.scene.layers[0].transferFunction = gentleWidgets();
+  scene.scene.layers[0].transferFunction.widgets[0].value = {0.45, 0.55};
+  scene.scene.layers[0].transferFunction.widgets[0].opacity = 0.9;
+  scene.scene.imageSize = {32, 32};
+  resolveScene(scene.scene, scene.facts);
+  const Image<Rgba> truth = truthOf(comm, scene);
+  for (const double asked : {1.0 / 32, 1.0 / 256}) {
+    const Image<Rgba> picture = drawn(comm, scene, asked, true);
+    if (!comm.isRoot()) continue;
+    std::printf("asked for %.2g, off by %.2g\n", asked, largestDifference(picture, truth));
+    EXPECT_LE(largestDifference(picture, truth), asked);
+  }
+}
+
 // Where voxels are not valid the field is no cubic within a cell, and ends half way to them. The
 // ends are planes here: what a ray grazes of curved ones may lie between look-ups.
 TEST(MaxError, IsKeptNextToVoxelsThatAreNotValid) {
