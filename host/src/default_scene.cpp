@@ -4,6 +4,7 @@
 
 #include "burin/common/error.hpp"
 #include "first_view.hpp"
+#include "material_layout.hpp"
 #include "materials.hpp"
 
 namespace burin::host {
@@ -27,23 +28,43 @@ TransferFunction risingOpacity(const Materials& materials) {
   return function;
 }
 
+/// The same of what is darker than its surroundings.
+TransferFunction fallingOpacity(const Materials& materials) {
+  TransferFunction function;
+  const auto at = [&](double t) { return between(materials.outer, materials.bottom, t); };
+  function.points = {{at(1), parseColour("#fff6e6"), 0.7},
+                     {at(0.3), parseColour("#d8b491"), 0.15},
+                     {at(0), parseColour("#9c6b52"), 0}};
+  return function;
+}
+
 /// Firm light material in a skin so thin that it hides little: most opaque at its boundary, where
-/// rays pass it quickly, and next to clear inside.
-TransferFunction coreInSkin(const Materials& materials) {
-  constexpr double kSkin = 0.05;
-  constexpr double kFlesh = 0.006;
+/// rays pass it quickly, and next to clear inside. The skin is firmer where the material lies
+/// `bare` (bareShare): it has less to hide there, and more to show beside it.
+TransferFunction coreInSkin(const Materials& materials, double bare) {
+  constexpr double kEnclosed = 0.7;
+  const double firm = std::max(0.0, (bare - kEnclosed) / (1 - kEnclosed));
+  const double skin = between(0.05, 0.2, firm);
+  const double inside = between(0.006, 0.03, firm);
   const double outer = materials.outer;
   const double inner = *materials.inner;
   // Where little but the boundary is between the two, there is no most frequent value.
   const double flesh = std::max(materials.around, between(outer, inner, 0.4));
   TransferFunction function;
   function.points = {{outer, parseColour("#b5724c"), 0},
-                     {between(outer, flesh, 0.35), parseColour("#d9996b"), kSkin},
-                     {between(outer, flesh, 0.75), parseColour("#d9a27c"), kFlesh},
-                     {between(flesh, inner, 0.7), parseColour("#d9a27c"), kFlesh},
+                     {between(outer, flesh, 0.35), parseColour("#d9996b"), skin},
+                     {between(outer, flesh, 0.75), parseColour("#d9a27c"), inside},
+                     {between(flesh, inner, 0.7), parseColour("#d9a27c"), inside},
                      {inner, parseColour("#e8d3b0"), 0.25},
                      {between(inner, materials.top, 0.4), parseColour("#fff6e6"), 0.7}};
   return function;
+}
+
+TransferFunction transferFunctionFor(const Materials& materials, Surroundings surroundings,
+                                     const node::BlockRanges& blocks) {
+  if (surroundings == Surroundings::kBright) return fallingOpacity(materials);
+  if (!materials.inner) return risingOpacity(materials);
+  return coreInSkin(materials, bareShare(blocks, materials.outer, *materials.inner));
 }
 
 StyleSettings withDefaults(std::string_view name) {
@@ -52,16 +73,20 @@ StyleSettings withDefaults(std::string_view name) {
   return defaultSettings(*spec);
 }
 
-/// Gradients of which the background's noise, with some margin, has no directions.
-StyleSettings gradientsAbove(double noise) {
+/// Gradients of which a dark background's noise, with some margin, has no directions; away from
+/// what shows, which is dense unless its surroundings are bright.
+StyleSettings gradientsFor(const Materials& materials, Surroundings surroundings) {
   constexpr double kMargin = 3;
+  const bool isBright = surroundings == Surroundings::kBright;
   StyleSettings gradient = withDefaults("gradient");
   const StyleSpec& spec = *findStyle("gradient");
   for (std::size_t i = 0; i < spec.parameters.size(); ++i) {
     const ParameterSpec& parameter = spec.parameters[i];
-    if (parameter.name != "noise_floor") continue;
-    const double usual = std::get<double>(parameter.defaultValue);
-    gradient.values[i] = std::clamp(kMargin * noise, usual, parameter.maximum / 2);
+    if (parameter.name == "noise_floor" && !isBright) {
+      const double usual = std::get<double>(parameter.defaultValue);
+      gradient.values[i] = std::clamp(kMargin * materials.noise, usual, parameter.maximum / 2);
+    }
+    if (parameter.name == "normal" && isBright) gradient.values[i] = std::string{"inward"};
   }
   return gradient;
 }
@@ -71,15 +96,19 @@ StyleSettings gradientsAbove(double noise) {
 Scene makeDefaultScene(const VolumeChoice& choice, const VolumeFacts& facts,
                        const MaterialProfile& profile, const node::BlockRanges& blocks) {
   const Materials materials = findMaterials(profile);
+  const Surroundings surroundings = findSurroundings(blocks, materials.outer);
   Scene scene;
   scene.volume = choice;
   Layer layer;
   layer.name = "volume";
-  layer.transferFunction = materials.inner ? coreInSkin(materials) : risingOpacity(materials);
+  layer.transferFunction = transferFunctionFor(materials, surroundings, blocks);
   layer.transferFunction.opacityUnitLength = 2 * facts.grid.boundingRadius() / kUnitsAcross;
   // The named style "illustration", without need of its file.
-  layer.styles = {gradientsAbove(materials.noise), withDefaults("light"), withDefaults("tone"),
-                  withDefaults("edges")};
+  layer.styles = {gradientsFor(materials, surroundings), withDefaults("light"),
+                  withDefaults("tone"), withDefaults("edges")};
+  // What fills its box would show nothing but the box: only its boundaries are left.
+  if (surroundings == Surroundings::kNone)
+    layer.styles.insert(layer.styles.begin() + 1, withDefaults("surface"));
   scene.layers = {layer};
   scene.camera = firstView(scene, facts, blocks);
   return scene;

@@ -8,7 +8,7 @@ namespace burin::host {
 
 namespace {
 
-/// How much of the volume's blocks can show.
+/// Which of the volume's blocks can show, and which of those lie at a boundary.
 class VisibleMass {
  public:
   VisibleMass(const Scene& scene, const VolumeFacts& facts, const node::BlockRanges& blocks)
@@ -16,13 +16,18 @@ class VisibleMass {
     mass_.reserve(blocks.lowest.size());
     for (std::size_t i = 0; i < blocks.lowest.size(); ++i) {
       double extinction = 0;
+      bool isWhole = false;
       for (const Layer& layer : scene.layers) {
         const TransferFunction& function = layer.transferFunction;
-        extinction +=
-            function.largestExtinction(double{blocks.lowest[i]}, double{blocks.highest[i]},
-                                       function.opacityUnitLength.value_or(1));
+        const double unit = function.opacityUnitLength.value_or(1);
+        const double lowest = double{blocks.lowest[i]};
+        const double highest = double{blocks.highest[i]};
+        extinction += function.largestExtinction(lowest, highest, unit);
+        isWhole = isWhole || (function.classify(lowest, unit).extinction > 0 &&
+                              function.classify(highest, unit).extinction > 0);
       }
       mass_.push_back(extinction > 0 ? 1 : 0);
+      isBoundary_.push_back(extinction > 0 && !isWhole);
     }
   }
 
@@ -73,7 +78,53 @@ class VisibleMass {
     return products / squares;
   }
 
+  /// Where the centre of all boundaries lies from that of all that shows, of its length along an
+  /// axis.
+  double boundaryOffset(int axis) const {
+    return offset(
+        axis, [&](const glm::ivec3& block) { return isBoundary(block); },
+        [&](const glm::ivec3& block) { return at(block) > 0; });
+  }
+
+  /// The same of solid bodies and their surfaces alone, without sheets such as tables and
+  /// headrests.
+  double surfaceOffset(int axis) const {
+    return offset(
+        axis, [&](const glm::ivec3& block) { return isSurface(block); },
+        [&](const glm::ivec3& block) { return isWhole(block) || isSurface(block); });
+  }
+
  private:
+  bool isBoundary(const glm::ivec3& block) const { return isBoundary_[blocks_.index(block)]; }
+  bool isWhole(const glm::ivec3& block) const { return at(block) > 0 && !isBoundary(block); }
+
+  /// A boundary next to, also across an edge or a corner, what shows as a whole.
+  bool isSurface(const glm::ivec3& block) const {
+    if (!isBoundary(block)) return false;
+    const glm::ivec3 lo = glm::max(block - 1, 0);
+    const glm::ivec3 hi = glm::min(block + 1, blocks_.blocks - 1);
+    for (int z = lo.z; z <= hi.z; ++z)
+      for (int y = lo.y; y <= hi.y; ++y)
+        for (int x = lo.x; x <= hi.x; ++x)
+          if (isWhole({x, y, z})) return true;
+    return false;
+  }
+
+  /// From the centre of the blocks of `whole` to that of those of `part`, of the length of what
+  /// shows along an axis; 0 if there are none.
+  template <typename Part, typename Whole>
+  double offset(int axis, Part&& part, Whole&& whole) const {
+    glm::dvec2 all{0}, some{0};  // count, moment
+    forBlocks([&](const glm::ivec3& block) {
+      const glm::dvec2 one{1, block[axis]};
+      if (whole(block)) all += one;
+      if (part(block)) some += one;
+    });
+    if (!(some[0] > 0)) return 0;
+    const double length = static_cast<double>(bounds().size()[axis]) / blocks_.blockCells;
+    return (some[1] / some[0] - all[1] / all[0]) / length;
+  }
+
   template <typename Visit>
   void forBlocks(Visit&& visit) const {
     for (int z = 0; z < blocks_.blocks.z; ++z)
@@ -84,12 +135,32 @@ class VisibleMass {
   const node::BlockRanges& blocks_;
   glm::ivec3 cells_;
   std::vector<double> mass_;
+  std::vector<bool> isBoundary_;
 };
 
+/// Whether the camera at azimuth 0 would look at the back: faces have more surface than backs of
+/// heads.
+bool isTurnedAway(const VisibleMass& mass, bool isUpZ) {
+  constexpr double kLeast = 0.005;
+  // The eye is at low y if z is up, and at high z if y is.
+  return isUpZ ? mass.surfaceOffset(1) > kLeast : mass.surfaceOffset(2) < -kLeast;
+}
+
+bool isLeftRightSymmetric(const VisibleMass& mass) {
+  constexpr double kSymmetric = 0.93;
+  constexpr double kMore = 0.03;
+  const double leftRight = mass.symmetry(0);
+  return leftRight > kSymmetric && leftRight > std::max(mass.symmetry(1), mass.symmetry(2)) + kMore;
+}
+
+/// By what the upper face cuts off; of heads also by the face, which has more boundaries than the
+/// vault of the skull above it.
 bool isUpsideDown(const VisibleMass& mass, int upAxis, int cells) {
   constexpr double kMore = 1.25;
+  constexpr double kFaceAbove = 0.014;
   const glm::dvec2 ends = mass.atEnds(upAxis);
-  return mass.bounds().hi[upAxis] == cells && ends[1] > kMore * ends[0];
+  if (mass.bounds().hi[upAxis] == cells && ends[1] > kMore * ends[0]) return true;
+  return isLeftRightSymmetric(mass) && mass.boundaryOffset(upAxis) > kFaceAbove;
 }
 
 /// The same view of what is upside down: beyond the pole, from where the up axis points down.
@@ -102,13 +173,6 @@ bool isSliced(const glm::dvec3& spacing) {
   constexpr double kDifferent = 1.01;
   const double smallest = std::min({spacing.x, spacing.y, spacing.z});
   return std::max({spacing.x, spacing.y, spacing.z}) > kDifferent * smallest;
-}
-
-bool isLeftRightSymmetric(const VisibleMass& mass) {
-  constexpr double kSymmetric = 0.93;
-  constexpr double kMore = 0.03;
-  const double leftRight = mass.symmetry(0);
-  return leftRight > kSymmetric && leftRight > std::max(mass.symmetry(1), mass.symmetry(2)) + kMore;
 }
 
 bool isFlat(const glm::dvec3& extent) {
@@ -155,7 +219,9 @@ CameraChoice firstView(const Scene& scene, const VolumeFacts& facts,
   if (isFlatBox) camera.elevationDeg = 40;
   const double depth = isUpZ ? extent.y : extent.z;
   if (depth > kElongated * extent.x) camera.azimuthDeg = 60;
+  if (!facts.anatomical && isTurnedAway(mass, isUpZ)) camera.azimuthDeg += 180;
   if (!facts.anatomical && isUpsideDown(mass, up, facts.grid.cells()[up])) turnOver(camera);
+  camera.azimuthDeg = std::fmod(camera.azimuthDeg, 360);
   camera.zoom = zoomToFit(viewed, facts, shown);
   return camera;
 }

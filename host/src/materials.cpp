@@ -7,6 +7,20 @@ namespace burin::host {
 
 namespace {
 
+/// Lower edge of the bin from which on all but `fraction` of the values < `end` lie.
+double quantileBelow(const Histogram& histogram, double end, double fraction) {
+  std::int64_t all = 0;
+  std::size_t bins = 0;
+  while (bins < histogram.counts.size() && histogram.edge(bins) < end)
+    all += histogram.counts[bins++];
+  std::int64_t seen = 0;
+  for (std::size_t bin = 0; bin < bins; ++bin) {
+    seen += histogram.counts[bin];
+    if (static_cast<double>(seen) > fraction * static_cast<double>(all)) return histogram.edge(bin);
+  }
+  return histogram.lowest;
+}
+
 /// Bins to either side that smooth counts and gradients, for so many bins.
 std::size_t smoothing(std::size_t bins) {
   constexpr std::size_t kSmoothed = 128;
@@ -122,6 +136,8 @@ Materials findMaterials(const MaterialProfile& profile) {
   const double base = found.inner.value_or(found.outer);
   // One bin at least: a curve needs its points apart, and floats can be told apart no finer.
   found.top = std::max(quantileAbove(histogram, base, 0.99), base + histogram.binWidth);
+  found.bottom =
+      std::min(quantileBelow(histogram, found.outer, 0.01), found.outer - histogram.binWidth);
   const double usual = profile.magnitudeQuantile(0.999);
   found.noise = usual > 0 ? finder.meanMagnitude(outer.below) / usual : 0;
   return found;

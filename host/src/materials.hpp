@@ -13,6 +13,7 @@ struct Materials {
   std::optional<double> inner;
   double around = 0;  ///< beside `inner`: the most frequent value between the two
   double top = 0;     ///< little lies above; above `outer` and `inner`
+  double bottom = 0;  ///< little lies below; below `outer`
   /// Gradient magnitude within the background: noise. Of the volume's 99.9th percentile.
   double noise = 0;
 };

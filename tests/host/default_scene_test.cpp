@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <functional>
 
 #include "burin/common/named_style.hpp"
 
@@ -69,6 +71,86 @@ TEST(DefaultScene, HidesTheBackgroundAndShowsTheRest) {
   EXPECT_EQ(function.classify(2.9, 1).extinction, 0);
   EXPECT_GT(function.classify(7.0, 1).extinction, 0);
   EXPECT_GT(function.classify(9.5, 1).extinction, function.classify(7.0, 1).extinction);
+}
+
+/// 6³ blocks, those at the volume's faces of one range and the others of another one.
+node::BlockRanges faceAndInside(const glm::vec2& atFaces, const glm::vec2& inside) {
+  constexpr int kBlocks = 6;
+  node::BlockRanges blocks;
+  blocks.blockCells = 4;
+  blocks.blocks = glm::ivec3{kBlocks};
+  for (int z = 0; z < kBlocks; ++z)
+    for (int y = 0; y < kBlocks; ++y)
+      for (int x = 0; x < kBlocks; ++x) {
+        const int nearest = std::min({x, y, z, kBlocks - 1 - x, kBlocks - 1 - y, kBlocks - 1 - z});
+        const glm::vec2& range = nearest == 0 ? atFaces : inside;
+        blocks.lowest.push_back(range[0]);
+        blocks.highest.push_back(range[1]);
+      }
+  return blocks;
+}
+
+TEST(DefaultScene, OfBrightSurroundingsTheDarkThingsShow) {
+  Known volume = known({40, 60, 30, 0, 0, 0, 0, 800, 950, 900});
+  const TransferFunction dense = sceneOf(volume).layers[0].transferFunction;
+  EXPECT_GT(dense.classify(9.5, 1).extinction, 0);
+  volume.blocks = faceAndInside({8, 9}, {0, 9});
+  const Scene scene = sceneOf(volume);
+  const TransferFunction& function = scene.layers[0].transferFunction;
+  EXPECT_EQ(function.classify(8.0, 1).extinction, 0);
+  EXPECT_EQ(function.classify(9.9, 1).extinction, 0);
+  EXPECT_GT(function.classify(1.5, 1).extinction, 0);
+  EXPECT_GT(function.classify(0.0, 1).extinction, function.classify(2.5, 1).extinction);
+  EXPECT_EQ(parseScene(writeScene(scene), "text"), scene);
+  const StyleSpec& spec = *findStyle("gradient");
+  const auto normal = std::ranges::find(spec.parameters, "normal", &ParameterSpec::name);
+  EXPECT_EQ(std::get<std::string>(
+                scene.layers[0]
+                    .style("gradient")
+                    ->values[static_cast<std::size_t>(normal - spec.parameters.begin())]),
+            "inward");
+}
+
+TEST(DefaultScene, WhatFillsItsBoxShowsItsBoundaries) {
+  Known volume = known({500, 0, 0, 0, 500});
+  volume.blocks = faceAndInside({0, 0.5F}, {0, 5});
+  EXPECT_EQ(sceneOf(volume).layers[0].style("surface"), nullptr);
+  volume.blocks = faceAndInside({0, 5}, {0, 5});
+  EXPECT_NE(sceneOf(volume).layers[0].style("surface"), nullptr);
+}
+
+/// A ball of 5 within 0, with values between at the places of blocks for which `isRough`.
+Scene ballScene(const std::function<bool(const glm::ivec3&)>& isRough, const VolumeFacts& facts) {
+  Known volume = known({900, 0, 0, 0, 0, 100});
+  constexpr int kBlocks = 16;
+  volume.blocks = {};
+  volume.blocks.blockCells = 4;
+  volume.blocks.blocks = glm::ivec3{kBlocks};
+  for (int z = 0; z < kBlocks; ++z)
+    for (int y = 0; y < kBlocks; ++y)
+      for (int x = 0; x < kBlocks; ++x) {
+        const glm::ivec3 block{x, y, z};
+        const double radius = glm::length(glm::dvec3{block} - 7.5);
+        const bool isShown = radius < 6;
+        volume.blocks.lowest.push_back(isShown && radius < 5 && !isRough(block) ? 5.0F : 0.0F);
+        volume.blocks.highest.push_back(isShown ? 5.0F : 0.0F);
+      }
+  return sceneOf(volume, facts);
+}
+
+TEST(DefaultScene, LooksFromTheSideOfMostBoundaries) {
+  VolumeFacts facts;
+  facts.grid.dims = {65, 65, 65};
+  const auto lowZ = [](const glm::ivec3& block) { return block.z < 6; };
+  const auto highZ = [](const glm::ivec3& block) { return block.z > 9; };
+  // y is up: the eye is at high z unless turned.
+  EXPECT_EQ(ballScene(highZ, facts).camera.azimuthDeg, 30);
+  EXPECT_EQ(ballScene(lowZ, facts).camera.azimuthDeg, 210);
+  const auto highY = [](const glm::ivec3& block) { return block.y > 9; };
+  facts.grid.spacing = {1, 1, 1.2};  // slices: z is up and the eye at low y
+  EXPECT_EQ(ballScene(highY, facts).camera.azimuthDeg, 210);
+  facts.anatomical = true;  // the file says where the front is
+  EXPECT_EQ(ballScene(highY, facts).camera.azimuthDeg, 30);
 }
 
 TEST(DefaultScene, ConstantAndEmptyVolumesAreValidToo) {

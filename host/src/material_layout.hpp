@@ -1,0 +1,23 @@
+#pragma once
+
+#include "burin/node/survey.hpp"
+
+namespace burin::host {
+
+/// What a thing lies in, by what is at the volume's faces.
+enum class Surroundings {
+  kDark,    ///< low values: air, water, nothing
+  kBright,  ///< high values
+  kNone,    ///< the faces hold what the inside holds: a field cut out of a larger one
+};
+
+/// `boundary`: the value that parts low from high ones. Blocks count half if they hold both. A
+/// volume too thin to have an inside lies in the dark.
+Surroundings findSurroundings(const node::BlockRanges& blocks, double boundary);
+
+/// How much of the material above `inner` lies bare: the share of the blocks at its boundary that
+/// reach below `outer`, too. Small where other material encloses it, as flesh does bone; 0 if it
+/// has no boundary.
+double bareShare(const node::BlockRanges& blocks, double outer, double inner);
+
+}  // namespace burin::host
