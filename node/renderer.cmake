@@ -13,11 +13,11 @@ target_include_directories(burin_gl_loader PUBLIC $<BUILD_INTERFACE:${glad_dir}/
 
 set(shader_files
   fullscreen.vert lattice.glsl ownership.glsl opacity.glsl volume.glsl neighbourhood.glsl
-  direction_palette.glsl voxels.glsl palettes.glsl
+  direction_palette.glsl voxels.glsl palettes.glsl halo.glsl
   skip.glsl preintegration.glsl widgets.glsl sides.glsl shading.glsl caps.glsl position.glsl laplacian.glsl adaptive.glsl
   cells.glsl halving.glsl raycast.glsl slice.glsl resolve.glsl
   styles/surface.glsl styles/boundary.glsl styles/silhouette.glsl styles/fade.glsl styles/light.glsl
-  styles/tone.glsl styles/toon.glsl styles/depth.glsl styles/laplacian.glsl styles/edges.glsl
+  styles/tone.glsl styles/toon.glsl styles/depth.glsl styles/laplacian.glsl styles/halo.glsl styles/edges.glsl
   styles/specular.glsl styles/line_surface.glsl)
 list(TRANSFORM shader_files PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/shaders/ OUTPUT_VARIABLE shader_paths)
 set(embedded ${CMAKE_CURRENT_BINARY_DIR}/embedded_shaders.cpp)

@@ -145,6 +145,8 @@ Codec<Layer> layerCodec() {
              "a style",
              &L::styles, styleOrNameCodec())},
       [](const At& at, const L& layer) {
+        if (layer.transferFunction.isTwoDimensional() && layer.style("halo") != nullptr)
+          at.fail("'halo' finds features by value alone: expected a transfer function of 'points'");
         if (layer.transferFunction.isTwoDimensional() && !layer.lineOpacity.empty())
           at.fail(
               "'line_opacity' is by value alone: beside 'widgets' lines have the opacity of "

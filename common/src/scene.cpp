@@ -154,10 +154,12 @@ int ghostLayersNeeded(const Scene& scene) {
     for (const StyleSettings& settings : layer.styles) {
       const StyleSpec* spec = findStyle(settings.name);
       BURIN_CHECK(spec != nullptr);
+      if (spec->name == "halo") continue;  // by its radius, below
       // Mere settings widen the ghost layers only where a style makes use of them.
       if (spec->hasSnippet || gradient) needed = std::max(needed, spec->ghostLayers);
     }
   }
+  needed = std::max(needed, static_cast<int>(std::ceil(haloReach(scene))));
   // Styles look around a segment's middle, or around those of its parts where these are halved.
   const int ofSegments = segmentGhostLayers(scene);
   return scene.quality.maxError ? needed + ofSegments : std::max(needed, ofSegments);
@@ -208,6 +210,21 @@ bool laplacianNeeded(const Scene& scene) {
       return spec != nullptr && spec->needsLaplacian;
     });
   });
+}
+
+HaloNeighbourhood haloNeighbourhood(const StyleSettings& halo) {
+  const double radius = halo.number("radius");
+  return {radius, std::max(0.5 * radius, 1.0)};
+}
+
+double haloReach(const Scene& scene) {
+  double reach = 0;
+  for (const Layer& layer : scene.layers)
+    if (const StyleSettings* halo = layer.style("halo")) {
+      const HaloNeighbourhood around = haloNeighbourhood(*halo);
+      reach = std::max(reach, around.radius + around.aside);
+    }
+  return reach;
 }
 
 }  // namespace burin

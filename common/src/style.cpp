@@ -137,7 +137,7 @@ std::string styleHelp() {
     text += fmt::format("{:<10}{}\n", style.name, style.help);
     for (const ParameterSpec& parameter : style.parameters) {
       text +=
-          fmt::format("  {:<15}{} ({})\n", parameter.name, parameter.help, valueHelp(parameter));
+          fmt::format("  {:<16}{} ({})\n", parameter.name, parameter.help, valueHelp(parameter));
     }
   }
   return text;

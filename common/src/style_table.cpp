@@ -248,6 +248,26 @@ StyleSpec laplacianStyle() {
       }};
 }
 
+StyleSpec haloStyle() {
+  return {.name = "halo",
+          .help = "dark rims just outside what the layer shows, hiding what lies behind",
+          .needsGradient = true,
+          .ghostLayers = 3,  // at its default radius: ghostLayersNeeded()
+          .parameters = {
+              {.name = "radius",
+               .help = "how far outside",
+               .defaultValue = 2.0,
+               .minimum = 1,
+               .maximum = 8,
+               .unit = "smallest voxel spacings"},
+              number("strength", "extinction of a full halo, per opacity unit length", 3, 0, 20),
+              number("direction_power", "of the cosine between outline and halo; large is thin", 2,
+                     1, 8),
+              number("edge_power", "of the edge measure; large is at outlines alone", 2, 1, 8),
+              {.name = "color", .help = "colour of the halo", .defaultValue = Colour{0, 0, 0}},
+          }};
+}
+
 StyleSpec edgesStyle() {
   return {.name = "edges",
           .help = "lines where a surface turns away from the eye",
@@ -311,9 +331,9 @@ StyleSpec lineSurfaceStyle() {
 
 std::span<const StyleSpec> styleTable() {
   static const std::vector<StyleSpec> table{
-      gradientStyle(), surfaceStyle(),  boundaryStyle(),   silhouetteStyle(), fadeStyle(),
-      lightStyle(),    toneStyle(),     toonStyle(),       depthStyle(),      laplacianStyle(),
-      edgesStyle(),    specularStyle(), lineSurfaceStyle()};
+      gradientStyle(), surfaceStyle(), boundaryStyle(), silhouetteStyle(), fadeStyle(),
+      lightStyle(),    toneStyle(),    toonStyle(),     depthStyle(),      laplacianStyle(),
+      haloStyle(),     edgesStyle(),   specularStyle(), lineSurfaceStyle()};
   return table;
 }
 

@@ -84,6 +84,9 @@ void main() {
 #else
       shade(coordinate, toEye, colour, extinction);
 #endif
+#ifdef HALOS
+      visible = extinction > 0.0;  // classify() cannot tell
+#endif
       float weight = (1.0 - sum.a) * opacityOf(extinction * (end - begin) * ray.planeWorld);
       sum += vec4(colour * weight, weight);
     }

@@ -59,6 +59,9 @@ void main() {
 #else
     shade(coordinate, directionToEye(), colour, extinction);
 #endif
+#ifdef HALOS
+    visible = extinction > 0.0;  // classify() cannot tell
+#endif
   }
   float depth = extinction * (end - begin) * ray.planeWorld;
 #ifdef LAYER_IMAGE

@@ -189,9 +189,12 @@ class LayerCode {
     const bool ownLines = !layer.lineOpacity.empty();
     const bool byGradient = layer.transferFunction.isTwoDimensional();
     const std::size_t number = byGradient ? addWidgetClass(i) : addClass();
+    function_ = number;
     const std::size_t lines = ownLines ? addClass() : number;
     const std::string shown = ownLines ? fmt::format(" + extinction{}", lines) : "";
-    body_ += fmt::format("  if (extinction{}{} > 0.0) {{\n", number, shown);
+    const std::string shows = fmt::format("extinction{}{} > 0.0", number, shown);
+    const bool hasHalo = layer.style("halo") != nullptr;
+    body_ += hasHalo ? "  {\n" : fmt::format("  if ({}) {{\n", shows);
     std::string magnitude;
     if (byGradient) {
       magnitude = magnitudeOf(i, layer);
@@ -207,7 +210,7 @@ class LayerCode {
     if (gradientNeededBy(layer) && !fromPalette) addSurface(i, layer, magnitude);
     addStyles(i, layer,
               [&](const StyleSpec& style) { return !fromPalette || !style.needsGradient; });
-    addResult(lines);
+    addResult(lines, hasHalo ? fmt::format("if ({}) ", shows) : "");
     body_ += "  }\n";
   }
 
@@ -374,9 +377,10 @@ class LayerCode {
       const ParameterCode code = parameterCode(settings, style, i, curves_);
       uniforms_ += code.uniforms;
       prepare_ += code.prepare;
-      const std::string position = style.needsPosition ? positionOf(i, style) + ", " : "";
+      std::string more = style.needsPosition ? positionOf(i, style) + ", " : "";
+      if (style.name == "halo") more = haloCast(i) + ", ";
       body_ += fmt::format("    {{\n    {0}_parameters p;\n{1}    apply_{0}(s, {2}{3}p);\n    }}\n",
-                           style.name, code.statements, looksAt(style), position);
+                           style.name, code.statements, looksAt(style), more);
     }
   }
 
@@ -388,13 +392,24 @@ class LayerCode {
     return fmt::format("positionAt(kept_{}, coordinate)", uniform);
   }
 
-  /// `i`: class of the lines.
-  void addResult(std::size_t i) {
+  /// What the layer's halos are at the sample.
+  std::string haloCast(std::size_t layer) {
+    std::string bins = "kept_" + visibleBinsUniform(function_);
+    if (scene_.quality.preintegrated)
+      bins = keepUniform("vec2", visibleBinsUniform(function_), uniforms_, prepare_);
+    const std::string neighbours = haloUniform(layer);
+    uniforms_ += fmt::format("uniform HaloNeighbours {};\n", neighbours);
+    return fmt::format("haloAt(coordinate, toEye, {}, {}, scale{}, {})", neighbours,
+                       transferUniform(function_), function_, bins);
+  }
+
+  /// `i`: class of the lines; `where`: what they are drawn if.
+  void addResult(std::size_t i, const std::string& where) {
     if (!pass_) {
       body_ += fmt::format(
-          "    drawLines(s, extinction{});\n"
+          "    {}drawLines(s, extinction{});\n"
           "    colour += s.extinction * s.colour;\n    extinction += s.extinction;\n",
-          i);
+          where, i);
     } else if (*pass_ == LayerPass::kColour) {
       body_ += "    colour = s.colour;\n    extinction = s.extinction;\n";
     } else {
@@ -409,6 +424,7 @@ class LayerCode {
   std::string styleCode() const {
     std::string text;
     if (positionNeeded(scene_)) text += "#include \"position.glsl\"\n";
+    if (haloReach(scene_) > 0) text += "#include \"halo.glsl\"\n";
     for (const StyleSpec& style : styleTable()) {
       if (!style.hasSnippet || !usedAnywhere(scene_, style.name)) continue;
       text += declareStyle(style) + fmt::format("#include \"styles/{}.glsl\"\n", style.name);
@@ -442,7 +458,8 @@ class LayerCode {
                           preintegrated ? "Side front, Side back" : "float middle");
       text += classify_;
     }
-    text += "  return " + total_ + " > 0.0;\n}\n";
+    // Halos show where no transfer function does.
+    text += haloReach(scene_) > 0 ? "  return true;\n}\n" : "  return " + total_ + " > 0.0;\n}\n";
     if (isAdaptive(scene_.quality))
       text += "float changeBeyond(Side edge, Side beyond) {\n  return " + beyond_ + ";\n}\n";
     text += fmt::format(
@@ -465,6 +482,7 @@ class LayerCode {
   bool hasCaps_;
   CurveCode curves_;
   std::size_t classes_ = 0;
+  std::size_t function_ = 0;  // the transfer function of the layer that is added
   std::string uniforms_, prepare_, ends_, classify_, beyond_, total_, body_;
   std::string begin_, finish_;  // of classify(), around a loop over voxels
 };
@@ -480,6 +498,9 @@ std::string curveUniform(std::size_t layer, std::string_view style, std::string_
 }
 std::string placeUniform(std::size_t layer, std::string_view style) {
   return parameterUniform(layer, style, "place");
+}
+std::string haloUniform(std::size_t layer) {
+  return parameterUniform(layer, "halo", "neighbours");
 }
 std::string transferUniform(std::size_t function) {
   return fmt::format("transfer{}", function);
@@ -527,6 +548,7 @@ std::string programHead(const Scene& scene, const ProgramOptions& options,
   if (options.invalidVoxels) text += "#define INVALID_VOXELS\n";
   if (options.countSamples) text += "#define COUNT_SAMPLES\n";
   if (options.severalBricks) text += "#define SEVERAL_BRICKS\n";
+  if (haloReach(scene) > 0) text += "#define HALOS\n";
   if (isAdaptive(scene.quality)) text += "#define ADAPTIVE\n";
   if (isAdaptive(scene.quality) && options.isSteep) text += "#define STEEP\n";
   if (scene.quality.preintegrated)

@@ -52,6 +52,8 @@ std::string parameterUniform(std::size_t layer, std::string_view style, std::str
 std::string curveUniform(std::size_t layer, std::string_view style, std::string_view parameter);
 /// vec4: the position that the style depends on is dot(xyz, p) + w, p in centred index space.
 std::string placeUniform(std::size_t layer, std::string_view style);
+/// struct HaloNeighbours of halo.glsl.
+std::string haloUniform(std::size_t layer);
 std::string magnitudeUniform(std::size_t layer);  ///< m = |gradient| * this
 std::string widgetsUniform(std::size_t layer);    ///< vec4 array: widgetRows()
 

@@ -91,15 +91,22 @@ void setColourCurve(const GlProgram& program, const std::string& uniform,
   program.set(rampsUniform(uniform), colourRamps(curve));
 }
 
+StyleSettings gradientSettings(const Layer& layer) {
+  const StyleSettings* own = layer.style("gradient");
+  return own != nullptr ? *own : defaultSettings(*findStyle("gradient"));
+}
+
+/// World gradient magnitude that counts as 1 in a layer.
+double gradientUnitOf(const Layer& layer, const PerGradientOperator<GradientScales>& gradients) {
+  const GradientScales& scales = gradients[gradientOperator(layer)];
+  return gradientSettings(layer).word("magnitude") == "maximum" ? scales.maximum
+                                                                : scales.percentile;
+}
+
 void setStyleUniforms(const GlProgram& program, const Layer& layer,
                       const PerGradientOperator<GradientScales>& gradients, std::size_t number) {
-  const StyleSettings gradient = [&] {
-    const StyleSettings* own = layer.style("gradient");
-    return own != nullptr ? *own : defaultSettings(*findStyle("gradient"));
-  }();
-  const bool byMaximum = gradient.word("magnitude") == "maximum";
-  const GradientScales& scales = gradients[gradientOperator(layer)];
-  const double unit = byMaximum ? scales.maximum : scales.percentile;
+  const StyleSettings gradient = gradientSettings(layer);
+  const double unit = gradientUnitOf(layer, gradients);
   program.set(magnitudeUniform(number),
               static_cast<float>(unit > 0 ? gradientUnit(gradients) / unit : 0.0));
   program.set(parameterUniform(number, "gradient", "noise_floor"),
@@ -120,6 +127,27 @@ void setStyleUniforms(const GlProgram& program, const Layer& layer,
         setColourCurve(program, curveUniform(number, style.name, parameter), *colours);
     }
   }
+}
+
+void setHaloUniforms(const GlProgram& program, const Layer& layer, const ProgramVolume& volume,
+                     std::size_t number) {
+  const StyleSettings* halo = layer.style("halo");
+  if (halo == nullptr) return;
+  const StyleSettings gradient = gradientSettings(layer);
+  const HaloNeighbourhood around = haloNeighbourhood(*halo);
+  const double difference = volume.scale.range / (2 * around.aside * volume.grid.smallestSpacing());
+  const double unit = gradientUnitOf(layer, volume.gradients);
+  const auto set = [&](const char* member, double value) {
+    program.set(haloUniform(number) + "." + member, static_cast<float>(value));
+  };
+  set("radius", around.radius);
+  set("aside", around.aside);
+  set("toMagnitude", unit > 0 ? difference / unit : 0.0);
+  set("noiseFloor", gradient.number("noise_floor"));
+  set("outward", gradient.word("normal") == "inward" ? -1 : 1);
+  set("unitLength", layer.transferFunction.opacityUnitLength.value());
+  set("directionPower", halo->number("direction_power"));
+  set("edgePower", halo->number("edge_power"));
 }
 
 void setDirectionPalette(const GlProgram& program) {
@@ -182,6 +210,7 @@ void setSceneUniforms(const GlProgram& program, const Scene& scene, const Progra
   for (std::size_t i = 0; i < scene.layers.size(); ++i) {
     setStyleUniforms(program, scene.layers[i], volume.gradients, i);
     program.set(widgetsUniform(i), widgetRows(scene.layers[i].transferFunction, volume.scale));
+    setHaloUniforms(program, scene.layers[i], volume, i);
   }
 }
 
@@ -198,6 +227,9 @@ void setViewUniforms(const GlProgram& program, const Scene& scene, const Camera&
   for (const Light& light : scene.lights)
     lights.push_back(toFloat(lightDirectionWorld(light, camera)));
   program.set("lightDirections", lights);
+  const glm::dmat3 axes{camera.right, camera.up, -camera.forward};
+  program.set("haloFrame", glm::mat3{glm::transpose(axes)});
+  program.set("haloAxes", glm::mat3{grid.worldToIndex() * (grid.smallestSpacing() * axes)});
   for (std::size_t i = 0; i < scene.layers.size(); ++i)
     for (const StyleSettings& style : scene.layers[i].styles)
       if (findStyle(style.name)->needsPosition)

@@ -66,7 +66,8 @@ struct ReferenceRenderer::State {
   ReferenceVolume volume;
   std::optional<ReferenceLaplacian> laplacian;  ///< if a layer needs it
   std::vector<ReferenceLayer> layers;
-  bool isByValue;  ///< no transfer function is two-dimensional
+  /// No transfer function is two-dimensional, no halos are cast: what shows is known by its values.
+  bool isByValue;
   double stepWorld;
 };
 
@@ -74,9 +75,7 @@ ReferenceRenderer::State::State(const Scene& givenScene, BrickSource& source,
                                 const ReferenceScales& scales)
     : scene{givenScene},
       volume{source},
-      isByValue{std::ranges::none_of(
-          scene.layers,
-          [](const Layer& layer) { return layer.transferFunction.isTwoDimensional(); })},
+      isByValue{!hasWidgets(scene) && haloReach(scene) == 0},
       stepWorld{scene.quality.stepVoxels * volume.grid().smallestSpacing()} {
   ReferenceGradientScale scale{volume, scales.gradients};
   for (const Layer& layer : scene.layers) layers.emplace_back(layer, scale);
@@ -112,9 +111,10 @@ Classified ReferenceRenderer::State::sampleOf(const glm::dvec3& begin, const glm
     } else {
       classes = preintegrated ? layer.classify(front, back) : layer.classify(*value);
     }
-    // No style adds extinction where the transfer functions give none.
-    if (!classes.shows()) continue;
+    // No style but halos adds extinction where the transfer functions give none.
+    if (!classes.shows() && layer.halo() == nullptr) continue;
     lookAround();
+    if (layer.halo() != nullptr) place.halo = layer.halo()->castOn(place.world, volume, view);
     const Classified sample = layer.shade(classes, place, view);
     mixture.colour += sample.extinction * sample.colour;
     mixture.extinction += sample.extinction;

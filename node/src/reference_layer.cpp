@@ -35,12 +35,13 @@ ReferenceLayer::ReferenceLayer(const Layer& layer, ReferenceGradientScale& scale
   readExtinctionStyles(layer);
   readColourStyles(layer);
   readLineStyles(layer);
-  if (needsGradient()) readGradientSettings(layer, scale);
+  if (needsGradient() || layer.style("halo") != nullptr) readGradientSettings(layer, scale);
+  if (layer.style("halo") != nullptr) halo_.emplace(layer, gradientScale_, noiseFloor_);
 }
 
 bool ReferenceLayer::needsGradient() const {
   return widgets_ || surface_ || boundary_ || silhouette_ || light_ || tone_ || toon_ || edges_ ||
-         specular_ || lineSurface_;
+         specular_ || lineSurface_ || halo_;
 }
 
 ReferenceLayer::Direction ReferenceLayer::directionOf(const StyleSettings& settings) {
@@ -135,6 +136,8 @@ Classified ReferenceLayer::shade(const ReferenceClass& classes, const ReferenceP
   if (toon_) sample.colour = tooned(sample.colour, lightSees, view);
   if (depth_) sample.colour = distant(sample.colour, place.world, view);
   if (laplacian_) sample.colour = creased(sample.colour, place.laplacian);
+  if (halo_) sample = halo_->over(sample, place.halo, at.magnitude);
+  if (!classes.shows()) return sample;  // no lines either
   const double lineFactor = faded * (lineSurface_ ? lineSurface_->at(at.magnitude) : 1.0);
   if (edges_ || specular_) drawLines(sample, classes.lineExtinction, lineFactor, at, view);
   return sample;

@@ -6,6 +6,7 @@
 #include "burin/common/scene.hpp"
 #include "reference_cut.hpp"
 #include "reference_gradient_scale.hpp"
+#include "reference_halo.hpp"
 #include "reference_mean_class.hpp"
 #include "reference_tone.hpp"
 #include "reference_view.hpp"
@@ -27,6 +28,7 @@ struct ReferencePlace {
   glm::dvec3 gradient{0};  ///< world units, by the layer's operator
   ReferenceCut cut;
   double laplacian = 0;  ///< in [-1, 1]
+  double halo = 0;       ///< of the layer: ReferenceHalo::castOn()
 };
 
 /// One layer of the scene, its settings looked up once, evaluated sample by sample.
@@ -44,6 +46,9 @@ class ReferenceLayer {
   /// Whether classes depend on the gradient too; then only this one says them.
   bool isTwoDimensional() const { return widgets_.has_value(); }
   ReferenceClass classify(double front, double back, const glm::dvec3& gradient) const;
+
+  /// nullptr if the layer has none.
+  const ReferenceHalo* halo() const { return halo_ ? &*halo_ : nullptr; }
 
   /// What the styles make of it.
   Classified shade(const ReferenceClass& classes, const ReferencePlace& place,
@@ -135,6 +140,7 @@ class ReferenceLayer {
   std::optional<Toon> toon_;
   std::optional<Depth> depth_;
   std::optional<Laplacian> laplacian_;
+  std::optional<ReferenceHalo> halo_;
   std::optional<Edges> edges_;
   std::optional<Specular> specular_;
 };

@@ -18,7 +18,8 @@ struct ReferenceLight {
 /// The volume's box as the camera sees it: what positions of samples are measured by.
 class ReferenceExtent {
  public:
-  ReferenceExtent(const VolumeGrid& grid, const Camera& camera) : forward_{camera.forward} {
+  ReferenceExtent(const VolumeGrid& grid, const Camera& camera)
+      : forward_{camera.forward}, right_{camera.right}, up_{camera.up} {
     const Box box = grid.boxIndex();
     for (std::size_t i = 0; i < corners_.size(); ++i)
       corners_[i] = grid.worldFromIndex({(i & 1) != 0 ? box.hi.x : box.lo.x,
@@ -28,6 +29,10 @@ class ReferenceExtent {
     for (const glm::dvec3& corner : corners_)
       radius_ = std::max(radius_, glm::distance(corner, centre_));
   }
+
+  /// Unit directions of the picture's plane, world space.
+  const glm::dvec3& right() const { return right_; }
+  const glm::dvec3& up() const { return up_; }
 
   /// Planar depth of a world position, 0 where the bounding sphere begins, 1 where it ends.
   double depth(const glm::dvec3& world) const {
@@ -47,7 +52,7 @@ class ReferenceExtent {
   }
 
  private:
-  glm::dvec3 forward_;
+  glm::dvec3 forward_, right_, up_;
   std::array<glm::dvec3, 8> corners_;
   glm::dvec3 centre_{0};
   double radius_ = 0;

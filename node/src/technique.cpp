@@ -28,6 +28,10 @@ void checkTechnique(const Scene& scene, Technique technique, Precision precision
       fail(ExitCode::kUsage,
            "precision {} is one of slices' framebuffer (--technique slices), rays add up in float",
            name(precision));
+  } else if (scene.quality.palettes == Palettes::kBefore && haloReach(scene) > 0) {
+    fail(ExitCode::kUsage,
+         "quality.palettes: \"before\" knows no halos, which are no voxel's own: expected "
+         "\"after\"");
   } else if (scene.quality.maxError && precision != Precision::kFloat) {
     fail(ExitCode::kUsage,
          "quality.max_error bounds what steps are wrong by, not a framebuffer of precision {}: "

@@ -10,8 +10,9 @@ namespace {
 /// Of a stored value, relative: filtering equal texels, and where the table begins in a float.
 constexpr double kRounding = 1e-6;
 
-/// Voxels, more than a sample's place rounds by. With palettes before filtering the eight voxels
-/// around it count, so one beyond a cube's face by that much may see voxels on the other side.
+/// Voxels, more than a sample's place rounds by. Where not its own value counts, but those of
+/// voxels around it or of a halo's neighbours, one beyond a cube's face by that much may see what
+/// is on the other side.
 constexpr double kPlaceRounding = 1e-3;
 
 /// The next float downwards, or upwards, so that rounding never narrows an interval.
@@ -36,7 +37,8 @@ std::vector<TransferTable> transferTables(const Scene& scene, const ValueScale& 
 
 VisibleValues::VisibleValues(const Scene& scene, std::span<const TransferTable> tables,
                              const ValueScale& scale) {
-  if (scene.quality.palettes == Palettes::kBefore) reach_ = kPlaceRounding;
+  const double halos = haloReach(scene);
+  if (scene.quality.palettes == Palettes::kBefore || halos > 0) reach_ = halos + kPlaceRounding;
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const std::vector<TransferFunction> functions = transferFunctions(scene);
   for (std::size_t i = 0; i < tables.size(); ++i) {

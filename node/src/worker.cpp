@@ -102,7 +102,7 @@ struct Shown {
 
 bool showsTheSame(const Scene& a, const Scene& b) {
   return a.clip == b.clip && a.clipBox == b.clipBox && a.quality.palettes == b.quality.palettes &&
-         transferFunctions(a) == transferFunctions(b);
+         haloReach(a) == haloReach(b) && transferFunctions(a) == transferFunctions(b);
 }
 
 }  // namespace

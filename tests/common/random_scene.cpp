@@ -147,6 +147,7 @@ class Maker {
     } else if (chance())
       for (const double value : values) made.lineOpacity.push_back({value, real(0, 1)});
     for (const StyleSpec& spec : styleTable()) {
+      if (spec.name == "halo" && made.transferFunction.isTwoDimensional()) continue;
       if (chance()) made.styles.push_back(settings(spec));
     }
     return made;

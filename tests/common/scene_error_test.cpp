@@ -140,6 +140,10 @@ TEST(SceneError, TwoDimensionalTransferFunctions) {
 { "widgets": [{ "shape": "rectangle", "value": [0, 1], "color": "#fff", "opacity": 1 }] },
 "line_opacity": [{ "value": 0, "opacity": 1 }] }] })"),
               HasSubstr("'line_opacity' is by value alone"));
+  EXPECT_THAT(complaint(R"({ "schema_version": 1, "layers": [{ "transfer_function":
+{ "widgets": [{ "shape": "rectangle", "value": [0, 1], "color": "#fff", "opacity": 1 }] },
+"style": { "halo": {} } }] })"),
+              HasSubstr("'halo' finds features by value alone"));
 }
 
 TEST(SceneError, OtherVersions) {

@@ -45,8 +45,8 @@ TEST(StyleTable, EffectsApplyInTheAgreedOrder) {
   std::vector<std::string_view> names;
   for (const StyleSpec& style : styleTable()) names.push_back(style.name);
   EXPECT_THAT(names, testing::ElementsAre("gradient", "surface", "boundary", "silhouette", "fade",
-                                          "light", "tone", "toon", "depth", "laplacian", "edges",
-                                          "specular", "line_surface"));
+                                          "light", "tone", "toon", "depth", "laplacian", "halo",
+                                          "edges", "specular", "line_surface"));
 }
 
 TEST(StyleTable, StylesByPositionSayWhichOne) {

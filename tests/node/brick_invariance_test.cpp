@@ -175,7 +175,7 @@ TEST(BrickInvariance, SameLayoutTwiceIsBitIdentical) {
 
 TEST(BrickInvariance, OneGhostLayerLessThanDeclaredShows) {
   ArraySource source = smoothVolume(gridOf({40, 40, 40}));
-  for (const char* style : {"light", "sobel", "regression", "laplacian", "widgets"}) {
+  for (const char* style : {"light", "sobel", "regression", "laplacian", "halo", "widgets"}) {
     const Scene scene = resolved(sceneWithStyle(style), source);
     const int less = ghostLayersNeeded(scene) - 1;
     const Camera camera = resolveCamera(scene, {source.info().grid, false});

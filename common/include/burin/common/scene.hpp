@@ -210,6 +210,18 @@ bool gradientNeeded(const Scene& scene);
 /// Whether any layer needs the smoothed Laplacian.
 bool laplacianNeeded(const Scene& scene);
 
+/// What the halos of a layer look at, around a place: the neighbours' distance, and that of their
+/// neighbours, of which their gradients are made. In smallest spacings.
+struct HaloNeighbourhood {
+  double radius = 0;
+  double aside = 0;
+};
+/// `halo`: settings of that style.
+HaloNeighbourhood haloNeighbourhood(const StyleSettings& halo);
+/// How far beyond what its transfer functions show the halos of a scene may show, in smallest
+/// spacings; 0 without halos.
+double haloReach(const Scene& scene);
+
 /// JSON Schema (draft 2020-12) of the scene file: the text of configs/schema.json.
 std::string sceneSchemaJson();
 
