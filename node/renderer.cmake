@@ -15,7 +15,7 @@ set(shader_files
   fullscreen.vert lattice.glsl ownership.glsl opacity.glsl volume.glsl neighbourhood.glsl
   direction_palette.glsl voxels.glsl palettes.glsl halo.glsl
   skip.glsl preintegration.glsl widgets.glsl sides.glsl shading.glsl caps.glsl position.glsl laplacian.glsl adaptive.glsl
-  cells.glsl halving.glsl raycast.glsl slice.glsl resolve.glsl
+  cells.glsl halving.glsl exact.glsl surfaces.glsl surface_march.glsl projection.glsl raycast.glsl slice.glsl resolve.glsl
   styles/surface.glsl styles/boundary.glsl styles/silhouette.glsl styles/fade.glsl styles/light.glsl
   styles/tone.glsl styles/toon.glsl styles/depth.glsl styles/laplacian.glsl styles/halo.glsl styles/edges.glsl
   styles/specular.glsl styles/line_surface.glsl)
@@ -38,7 +38,7 @@ burin_library(node
           src/step_map.cpp src/brick_texture.cpp src/laplacian_texture.cpp src/brick.cpp src/cost_estimate.cpp
           src/program_uniforms.cpp src/transfer_textures.cpp src/sample_counters.cpp
           src/frame_target.cpp src/layer_images.cpp src/brick_renderer.cpp src/raycaster.cpp
-          src/slicer.cpp src/technique.cpp src/worker.cpp ${embedded}
+          src/slicer.cpp src/projector.cpp src/group_renderer.cpp src/group_image.cpp src/technique.cpp src/worker.cpp ${embedded}
   PUBLIC burin::volumes burin::compositor
   PRIVATE $<BUILD_INTERFACE:burin_gl_loader> ${CMAKE_DL_LIBS})
 burin_unity(burin_node)

@@ -1,6 +1,7 @@
 #include "layer_keys.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include "transfer_function_file.hpp"
@@ -83,6 +84,58 @@ Codec<std::vector<StyleSettings>> styleOrNameCodec() {
   return codec;
 }
 
+constexpr std::array kModes{LayerMode::kDvr, LayerMode::kIso, LayerMode::kMip, LayerMode::kAverage};
+
+Codec<std::string> modeWord() {
+  std::vector<std::string_view> names;
+  for (const LayerMode mode : kModes) names.emplace_back(burin::name(mode));
+  return word(std::move(names));
+}
+
+/// `value`: one of modeWord().
+LayerMode modeNamed(std::string_view value) {
+  return *std::find_if(kModes.begin(), kModes.end(),
+                       [&](LayerMode mode) { return burin::name(mode) == value; });
+}
+
+/// A projection has no place on its ray, so nothing of what styles go by.
+void checkProjection(const At& at, const Layer& layer) {
+  const char* key = layer.styles.empty() ? "line_opacity" : "style";
+  const Node* found = at.node.find(key);
+  if (found == nullptr || (layer.styles.empty() && layer.lineOpacity.empty())) return;
+  At::failAt(found->where, json::childPath(at.path, key),
+             fmt::format("a layer of mode \"{}\" has no place that styles could see; expected mode "
+                         "\"dvr\" or \"iso\"",
+                         burin::name(layer.mode)));
+}
+
+/// What goes by value alone knows no regions of value and gradient.
+void checkTwoDimensional(const At& at, const Layer& layer) {
+  if (layer.mode != LayerMode::kDvr)
+    at.fail("mode \"{}\" is by value alone: expected a transfer function of 'points', or \"dvr\"",
+            burin::name(layer.mode));
+  if (layer.style("halo") != nullptr)
+    at.fail("'halo' finds features by value alone: expected a transfer function of 'points'");
+  if (!layer.lineOpacity.empty())
+    at.fail("'line_opacity' is by value alone: beside 'widgets' lines have the opacity of these");
+}
+
+void checkLayer(const At& at, const Layer& layer) {
+  if (layer.transferFunction.isTwoDimensional()) checkTwoDimensional(at, layer);
+  if (isProjection(layer.mode)) checkProjection(at, layer);
+  const bool isSurface = layer.mode == LayerMode::kIso;
+  if (isSurface && !layer.isoValue) at.fail("'iso_value' is missing beside \"mode\": \"iso\"");
+  if (isSurface && layer.style("halo") != nullptr)
+    at.fail("'halo' lies around a medium: expected \"mode\": \"dvr\"");
+  for (const char* key : {"iso_value", "iso_opacity"}) {
+    const Node* found = at.node.find(key);
+    if (found != nullptr && !isSurface)
+      At::failAt(found->where, json::childPath(at.path, key),
+                 fmt::format("a layer of mode \"{}\" is no surface; expected \"mode\": \"iso\"",
+                             burin::name(layer.mode)));
+  }
+}
+
 }  // namespace
 
 Codec<TransferFunction> transferFunctionCodec() {
@@ -143,15 +196,25 @@ Codec<Layer> layerCodec() {
        field("style",
              "Effects on this layer, an empty entry with its defaults; or the name of "
              "a style",
-             &L::styles, styleOrNameCodec())},
-      [](const At& at, const L& layer) {
-        if (layer.transferFunction.isTwoDimensional() && layer.style("halo") != nullptr)
-          at.fail("'halo' finds features by value alone: expected a transfer function of 'points'");
-        if (layer.transferFunction.isTwoDimensional() && !layer.lineOpacity.empty())
-          at.fail(
-              "'line_opacity' is by value alone: beside 'widgets' lines have the opacity of "
-              "these");
-      });
+             &L::styles, styleOrNameCodec()),
+       field<L, std::string>(
+           "mode",
+           "dvr: a medium with the transfer function's opacities; iso: the surface where the "
+           "volume "
+           "is iso_value, in the transfer function's colour there; mip, average: colour and "
+           "opacity "
+           "of the largest value on a ray, or of their mean, over the layers before",
+           modeWord(), [](const L& l) { return std::optional<std::string>{burin::name(l.mode)}; },
+           [](L& l, const std::string& value) { l.mode = modeNamed(value); }),
+       field("iso_value", "Value of the surface, in data units", &L::isoValue, number(kAnyNumber)),
+       field<L, double>(
+           "iso_opacity", "Opacity of the surface wherever a ray meets it; default 1",
+           number({.minimum = 0, .maximum = 1}),
+           [](const L& l) {
+             return l.mode == LayerMode::kIso ? std::optional{l.isoOpacity} : std::nullopt;
+           },
+           [](L& l, double value) { l.isoOpacity = value; })},
+      checkLayer);
 }
 
 }  // namespace burin::scene_io

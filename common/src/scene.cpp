@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "burin/common/error.hpp"
@@ -63,7 +64,7 @@ bool needsGradient(const Layer& layer) {
 /// A segment belongs to the brick of its middle; its ends are half a segment away from there. Along
 /// no axis that is more voxels than along the ray, where a voxel is at least the smallest spacing.
 int segmentGhostLayers(const Scene& scene) {
-  if (!scene.quality.preintegrated) return 0;
+  if (!scene.quality.preintegrated && !hasSurfaces(scene)) return 0;
   const CameraChoice& camera = scene.camera;
   double slope = 0;  // of the ray through a corner of the picture
   if (camera.projection == Projection::kPerspective) {
@@ -75,6 +76,14 @@ int segmentGhostLayers(const Scene& scene) {
   constexpr double kMost = 4096;  // more than any texture holds; loading stops at the volume
   return static_cast<int>(
       std::min(std::ceil(0.5 * scene.quality.stepVoxels * std::hypot(1.0, slope)), kMost));
+}
+
+/// The line opacities of a layer, which has some.
+TransferFunction lineFunction(const Layer& layer) {
+  TransferFunction lines{{}, layer.transferFunction.opacityUnitLength};
+  for (const OpacityPoint& point : layer.lineOpacity)
+    lines.points.push_back({point.value, Colour{}, point.opacity});
+  return lines;
 }
 
 }  // namespace
@@ -90,6 +99,11 @@ bool Layer::hasLines() const {
     const StyleSpec* spec = findStyle(s.name);
     return spec != nullptr && spec->passes == StylePasses::kLines;
   });
+}
+
+double Layer::isoLineOpacity() const {
+  if (lineOpacity.empty()) return isoOpacity;
+  return lineFunction(*this).lookUp(isoValue.value()).opacity;
 }
 
 void resolveScene(Scene& scene, const VolumeFacts& volume) {
@@ -160,21 +174,20 @@ int ghostLayersNeeded(const Scene& scene) {
     }
   }
   needed = std::max(needed, static_cast<int>(std::ceil(haloReach(scene))));
-  // Styles look around a segment's middle, or around those of its parts where these are halved.
+  // Styles look around a segment's middle; around those of its parts where these are halved, and
+  // around the place of a surface.
   const int ofSegments = segmentGhostLayers(scene);
-  return scene.quality.maxError ? needed + ofSegments : std::max(needed, ofSegments);
+  return scene.quality.maxError || hasSurfaces(scene) ? needed + ofSegments
+                                                      : std::max(needed, ofSegments);
 }
 
 std::vector<TransferFunction> transferFunctions(const Scene& scene) {
   std::vector<TransferFunction> functions;
   for (const Layer& layer : scene.layers) {
+    if (layer.mode != LayerMode::kDvr) continue;
     const TransferFunction& own = layer.transferFunction;
     functions.push_back(own.isTwoDimensional() ? own.envelope() : own);
-    if (layer.lineOpacity.empty()) continue;
-    TransferFunction lines{{}, layer.transferFunction.opacityUnitLength};
-    for (const OpacityPoint& point : layer.lineOpacity)
-      lines.points.push_back({point.value, Colour{}, point.opacity});
-    functions.push_back(std::move(lines));
+    if (!layer.lineOpacity.empty()) functions.push_back(lineFunction(layer));
   }
   return functions;
 }
@@ -225,6 +238,51 @@ double haloReach(const Scene& scene) {
       reach = std::max(reach, around.radius + around.aside);
     }
   return reach;
+}
+
+bool hasSurfaces(const Scene& scene) {
+  return std::any_of(scene.layers.begin(), scene.layers.end(),
+                     [](const Layer& layer) { return layer.mode == LayerMode::kIso; });
+}
+
+bool hasProjections(const Scene& scene) {
+  return std::any_of(scene.layers.begin(), scene.layers.end(),
+                     [](const Layer& layer) { return isProjection(layer.mode); });
+}
+
+std::vector<Scene> layerGroups(const Scene& scene) {
+  std::vector<Scene> groups;
+  for (const Layer& layer : scene.layers) {
+    if (groups.empty() || isProjection(layer.mode) ||
+        isProjection(groups.back().layers.front().mode)) {
+      groups.push_back(scene);
+      groups.back().layers.clear();
+    }
+    groups.back().layers.push_back(layer);
+  }
+  return groups;
+}
+
+std::vector<double> projectedFrom(const Scene& scene) {
+  constexpr double kAll = -std::numeric_limits<double>::infinity();
+  std::vector<double> values;
+  for (const Layer& layer : scene.layers) {
+    const auto& points = layer.transferFunction.points;
+    const auto first = std::find_if(points.begin(), points.end(),
+                                    [](const TransferPoint& p) { return p.opacity > 0; });
+    if (!isProjection(layer.mode) || first == points.end()) continue;
+    const bool isAll = layer.mode == LayerMode::kAverage || first == points.begin();
+    values.push_back(isAll ? kAll : (first - 1)->value);
+  }
+  return values;
+}
+
+std::vector<double> shownSurfaces(const Scene& scene) {
+  std::vector<double> values;
+  for (const Layer& layer : scene.layers)
+    if (layer.mode == LayerMode::kIso && std::max(layer.isoOpacity, layer.isoLineOpacity()) > 0)
+      values.push_back(layer.isoValue.value());
+  return values;
 }
 
 }  // namespace burin

@@ -231,6 +231,12 @@ Codec<Quality> qualityCodec() {
       });
 }
 
+void checkScene(const At& at, const Scene& scene) {
+  if (scene.quality.maxError && hasProjections(scene))
+    forbid({*at.node.find("quality"), "quality"}, "max_error",
+           "layers of mode \"mip\" and \"average\" take samples of a step; expected 'step_voxels'");
+}
+
 constexpr double kVersion = 1;
 
 Field<Scene> schemaVersionField() {
@@ -270,7 +276,8 @@ Codec<Scene> makeSceneCodec() {
            }),
        field("lights", "Directional lights; tone follows the first one", &S::lights,
              list(lightCodec(), 1, kMost)),
-       required(field("layers", "What is drawn: simultaneous media, each with its own look",
+       required(field("layers",
+                      "What is drawn, each with its own look: media and surfaces share space",
                       &S::layers, list(layerCodec(), 1, kMost))),
        field<S, std::vector<ClipChoice>>(
            "clip", "Planes, and one box at most, that cut material away", clipListCodec(),
@@ -282,7 +289,8 @@ Codec<Scene> makeSceneCodec() {
            [](const S& s) {
              return s.annotations == Annotations{} ? std::nullopt : std::optional{s.annotations};
            },
-           [](S& s, Annotations value) { s.annotations = std::move(value); })});
+           [](S& s, Annotations value) { s.annotations = std::move(value); })},
+      checkScene);
 }
 
 }  // namespace

@@ -13,22 +13,25 @@ double extinctionFromOpacity(double opacity, double unitLength) {
   return -std::log1p(-std::min(opacity, kLargestOpacity)) / unitLength;
 }
 
-Classified TransferFunction::classify(double value, double unitLength) const {
+ColourAndOpacity TransferFunction::lookUp(double value) const {
   BURIN_CHECK(!points.empty());
   // The first point beyond the value: of two points at one value the later one holds there.
   const auto above = std::upper_bound(points.begin(), points.end(), value,
                                       [](double v, const TransferPoint& p) { return v < p.value; });
   if (above == points.begin() || above == points.end()) {
     const TransferPoint& end = above == points.end() ? points.back() : points.front();
-    return {end.colour.linear(), extinctionFromOpacity(end.opacity, unitLength)};
+    return {end.colour.linear(), end.opacity};
   }
   const TransferPoint& a = *(above - 1);
   const TransferPoint& b = *above;
   // Halved first, so that points at opposite ends of the double range do not overflow.
   const double t = (value / 2 - a.value / 2) / (b.value / 2 - a.value / 2);
-  const double opacity = (1 - t) * a.opacity + t * b.opacity;
-  return {(1 - t) * a.colour.linear() + t * b.colour.linear(),
-          extinctionFromOpacity(opacity, unitLength)};
+  return {(1 - t) * a.colour.linear() + t * b.colour.linear(), (1 - t) * a.opacity + t * b.opacity};
+}
+
+Classified TransferFunction::classify(double value, double unitLength) const {
+  const ColourAndOpacity at = lookUp(value);
+  return {at.colour, extinctionFromOpacity(at.opacity, unitLength)};
 }
 
 Classified TransferFunction::classify(double value, double magnitude, double unitLength) const {

@@ -40,11 +40,12 @@ std::vector<NamedStyle> chosenStyles(const std::vector<std::string>& names) {
   return chosen;
 }
 
-/// The scene with a style on every layer. How gradients are made stays the layer's own business
-/// unless the style says it.
+/// The scene with a style on every layer that can have one. How gradients are made stays the
+/// layer's own business unless the style says it.
 Scene inStyle(Scene scene, const NamedStyle& style) {
   constexpr std::string_view kGradient = "gradient";
   for (Layer& layer : scene.layers) {
+    if (isProjection(layer.mode)) continue;
     const StyleSettings* own = layer.style(kGradient);
     const bool isSaid =
         std::ranges::find(style.effects, kGradient, &StyleSettings::name) != style.effects.end();

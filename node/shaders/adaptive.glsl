@@ -45,6 +45,22 @@ float largestDifference(vec4 a, vec4 b) {
 // Units of the node of the tree that begins where `done` units end.
 uint nodeAfter(uint done) { return done == 0u || done >= kUnits ? kUnits : done & (~done + 1u); }
 
+#ifdef SURFACES
+// The surfaces of a set, all met at one place, one behind the other; premultiplied.
+vec4 surfaceColours(vec3 coordinate, Side at, int surfaces, vec3 toEye) {
+  vec4 sum = vec4(0.0);
+  while (surfaces != 0) {
+    int met = firstMet(surfaces, at.value);
+    vec3 colour;
+    float opacity;
+    shade(coordinate, at, at, toEye, met, colour, opacity);
+    sum += (1.0 - sum.a) * vec4(colour * opacity, opacity);
+    surfaces ^= 1 << met;
+  }
+  return sum;
+}
+#endif
+
 #ifdef STEEP
 #include "cells.glsl"
 #else

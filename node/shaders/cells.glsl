@@ -4,6 +4,10 @@
 // cut at its extremes, so that a stretch's values lie between its ends' and nothing hides from
 // pre-integration; dividing stretches further takes no look-ups. Only in volumes with voxels that are
 // not valid, where the field is no cubic, every part's end and middle are looked up.
+//
+// As values rise or fall all the way along a stretch, it meets a surface if and only if its ends lie on
+// different sides, and meets it once. Parts that meet one are halved down to the smallest, a 512th of a
+// stretch, in which the value goes on a line as far as a float tells.
 
 const float kMargin = 1e-3;   // planes: the shortest piece of a cell
 const float kFlat = 1.0 / 128.0;  // of a piece: extremes closer to its ends or each other do not count
@@ -67,6 +71,15 @@ void main() {
   float from = 0.0;       // of the piece: where the stretch begins
   uint done = 0u;         // of the stretch, in units
   uint size = kUnits;     // of the part that is looked at
+#ifdef SURFACES
+  prepareSurfaces();
+  int firstOwned = j, lastOwned = last;
+  precise vec3 entry = ray.origin + segmentBegin(ray, j) * ray.along;
+  precise vec3 exit = ray.origin + segmentEnd(ray, last) * ray.along;
+  vec2 entryLook = exactLookUp(entry);
+  vec2 exitLook = exactLookUp(exit);
+  int side = 0;           // of where the part begins
+#endif
   while (j <= last) {
     int before = j;
     if (j >= skip.knownUntil) lookAhead(ray, j, skip);
@@ -103,17 +116,43 @@ void main() {
     classifySide(middle);
     classifySide(back);
 #endif
+    float nearer = 0.5;  // part of it before the middle
+#ifdef SURFACES
+    // Where bricks meet the same in both (surface_march.glsl).
+    float decisive = !begun && j == firstOwned ? entryLook.x : back.value;
+    bool isExit = j == lastOwned && pieceTo >= segmentTo && to == 1.0 && done + size == kUnits;
+    decisive = begun && isExit ? exitLook.x : decisive;
+    int sideBehind = sideOf(decisive);
+    int crossed = front.valid * back.valid > 0.0 ? side ^ sideBehind : 0;
+    if (crossed != 0 && size == 1u) {
+      middle.value = isoValues[firstMet(crossed, front.value)];
+      middle.valid = 1.0;
+      classifySide(middle);
+      nearer = front.value == back.value
+                   ? 0.5
+                   : zeroOfLine(front.value - middle.value, back.value - middle.value);
+      coordinate += (4.0 * nearer - 2.0) * quarter;
+      quarter = vec3(0.0);
+    }
+#endif
     bool accepted = false;
     if (sampled) {
       float world = (end - begin) * planes * ray.planeWorld;
       vec4 whole = partColour(coordinate, front, back, toEye, world);
-      vec4 first = partColour(coordinate - quarter, front, middle, toEye, 0.5 * world);
-      vec4 second = partColour(coordinate + quarter, middle, back, toEye, 0.5 * world);
+      vec4 first = partColour(coordinate - quarter, front, middle, toEye, nearer * world);
+      vec4 second = partColour(coordinate + quarter, middle, back, toEye, (1.0 - nearer) * world);
+#ifdef SURFACES
+      vec4 met = surfaceColours(coordinate, middle, size == 1u ? crossed : 0, toEye);
+      second = met + (1.0 - met.a) * second;
+#endif
       vec4 halves = first + (1.0 - first.a) * second;
       // A stretch that shows something may agree with its halves by chance, but hardly twice.
       bool isJudged = size < kUnits || max(whole.a, halves.a) <= tolerance;
       accepted = size == 1u || (isJudged && largestDifference(halves, whole) <= tolerance &&
                                 !meetsInvalid(front, middle, back));
+#ifdef SURFACES
+      accepted = accepted && (size == 1u || crossed == 0);
+#endif
       if (accepted) {
         sum += (1.0 - sum.a) * halves;
         shaded += uint(first.a > 0.0) + uint(second.a > 0.0);
@@ -133,6 +172,9 @@ void main() {
       size >>= 1;
     } else {
       front = back;
+#ifdef SURFACES
+      side = sideBehind;
+#endif
       if (sampled) done += size;
       size = nodeAfter(done);
     }

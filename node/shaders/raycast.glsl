@@ -23,6 +23,8 @@ float sufficientOpacity() {
 
 #ifdef ADAPTIVE
 #include "adaptive.glsl"
+#elif defined(SURFACES)
+#include "surface_march.glsl"
 #else
 void main() {
   result = vec4(0.0);

@@ -68,7 +68,7 @@ bool isOccupied(SkipState state, float where) {
 
 // What is known of the segments from j on. Afterwards either segment j needs a visit, as do all
 // before knownUntil, or j was moved on to the next segment that may need one.
-#ifdef PREINTEGRATED
+#if defined(PREINTEGRATED) || defined(SURFACES)
 // A segment needs a visit if it crosses any macrocell that may be visible.
 void lookAhead(Ray ray, inout int j, inout SkipState state) {
   float from = max(segmentBegin(ray, j), state.emptyUntil);

@@ -1,7 +1,5 @@
 #include "frame_target.hpp"
 
-#include <array>
-
 #include "burin/common/error.hpp"
 
 namespace burin::node {
@@ -22,14 +20,13 @@ void FrameTarget::resize(ImageSize size) {
   size_ = size;
 }
 
-void FrameTarget::begin(const PixelRect& area) {
+void FrameTarget::begin(const PixelRect& area, const std::array<float, 4>& nothing) {
   bind();
   gl().Viewport(0, 0, size_.width, size_.height);
   gl().Disable(GL_DITHER);
   gl().Enable(GL_SCISSOR_TEST);
   gl().Scissor(area.x0, area.y0, area.width(), area.height());
-  constexpr std::array<float, 4> kNothing{};
-  gl().ClearNamedFramebufferfv(framebuffer_.id(), GL_COLOR, 0, kNothing.data());
+  gl().ClearNamedFramebufferfv(framebuffer_.id(), GL_COLOR, 0, nothing.data());
 }
 
 std::span<const Rgba> FrameTarget::read(const PixelRect& area, const PixelRoom& room) const {
@@ -37,6 +34,12 @@ std::span<const Rgba> FrameTarget::read(const PixelRect& area, const PixelRoom& 
   const std::span<Rgba> pixels = room(area.pixels());
   gl().ReadPixels(area.x0, area.y0, area.width(), area.height(), GL_RGBA, GL_FLOAT, pixels.data());
   return pixels;
+}
+
+void FrameTarget::read(const PixelRect& area, GLenum channels, std::span<float> into) const {
+  BURIN_CHECK_EQ(into.size(), area.pixels() * (channels == GL_RED ? 1u : 2u));
+  bind();
+  gl().ReadPixels(area.x0, area.y0, area.width(), area.height(), channels, GL_FLOAT, into.data());
 }
 
 }  // namespace burin::node

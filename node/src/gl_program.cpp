@@ -70,6 +70,11 @@ void GlProgram::set(const std::string& uniform, const glm::mat3& value) const {
   gl().ProgramUniformMatrix3fv(program_.id(), location(uniform), 1, GL_FALSE,
                                glm::value_ptr(value));
 }
+void GlProgram::set(const std::string& uniform, const std::vector<float>& values) const {
+  if (values.empty()) return;
+  gl().ProgramUniform1fv(program_.id(), location(uniform), static_cast<GLsizei>(values.size()),
+                         values.data());
+}
 void GlProgram::set(const std::string& uniform, const std::vector<glm::vec3>& values) const {
   if (values.empty()) return;
   gl().ProgramUniform3fv(program_.id(), location(uniform), static_cast<GLsizei>(values.size()),

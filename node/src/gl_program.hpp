@@ -26,6 +26,7 @@ class GlProgram {
   void set(const std::string& uniform, const glm::vec3& value) const;
   void set(const std::string& uniform, const glm::vec4& value) const;
   void set(const std::string& uniform, const glm::mat3& value) const;
+  void set(const std::string& uniform, const std::vector<float>& values) const;
   void set(const std::string& uniform, const std::vector<glm::vec3>& values) const;
   void set(const std::string& uniform, const std::vector<glm::vec4>& values) const;
 

@@ -175,7 +175,8 @@ class LayerCode {
         pass_{pass},
         gradients_{gradientOperatorsNeeded(scene)},
         palettesBefore_{scene.quality.palettes == Palettes::kBefore},
-        hasCaps_{!cappedPlanes(scene).empty()} {
+        hasCaps_{!cappedPlanes(scene).empty()},
+        hasSurfaces_{hasSurfaces(scene)} {
     for (std::size_t i = 0; i < scene.layers.size(); ++i) add(i);
   }
 
@@ -185,6 +186,31 @@ class LayerCode {
   /// Classes are numbered as transferFunctions() are: one for the layer, one for its lines if these
   /// have opacities of their own.
   void add(std::size_t i) {
+    if (scene_.layers[i].mode == LayerMode::kIso) {
+      addIsoSurface(i);
+    } else {
+      addMedium(i);
+    }
+  }
+
+  /// Shaded as a sample whose extinction is an opacity.
+  void addIsoSurface(std::size_t i) {
+    const Layer& layer = scene_.layers[i];
+    const std::string look = keepUniform("vec4", isoColourUniform(i), uniforms_, prepare_);
+    const std::string lines = keepUniform("float", isoLineOpacityUniform(i), uniforms_, prepare_);
+    body_ += fmt::format(
+        "  if (surface == {0}) {{\n"
+        "    Shading s = Shading({1}.rgb, {1}.a, vec3(0.0), 0.0, 1.0);\n",
+        surfaces_++, look);
+    if (gradientNeededBy(layer)) addSurface(i, layer, {});
+    addStyles(i, layer, [](const StyleSpec&) { return true; });
+    body_ += fmt::format(
+        "    drawLines(s, {});\n    extinction = min(s.extinction, 1.0);\n"
+        "    colour = extinction * s.colour;\n  }}\n",
+        lines);
+  }
+
+  void addMedium(std::size_t i) {
     const Layer& layer = scene_.layers[i];
     const bool ownLines = !layer.lineOpacity.empty();
     const bool byGradient = layer.transferFunction.isTwoDimensional();
@@ -194,7 +220,9 @@ class LayerCode {
     const std::string shown = ownLines ? fmt::format(" + extinction{}", lines) : "";
     const std::string shows = fmt::format("extinction{}{} > 0.0", number, shown);
     const bool hasHalo = layer.style("halo") != nullptr;
-    body_ += hasHalo ? "  {\n" : fmt::format("  if ({}) {{\n", shows);
+    std::string condition = hasSurfaces_ ? "surface < 0" : "";
+    if (!hasHalo) condition += (hasSurfaces_ ? " && " : "") + shows;
+    body_ += condition.empty() ? "  {\n" : fmt::format("  if ({}) {{\n", condition);
     std::string magnitude;
     if (byGradient) {
       magnitude = magnitudeOf(i, layer);
@@ -459,12 +487,14 @@ class LayerCode {
       text += classify_;
     }
     // Halos show where no transfer function does.
-    text += haloReach(scene_) > 0 ? "  return true;\n}\n" : "  return " + total_ + " > 0.0;\n}\n";
+    text += haloReach(scene_) > 0
+                ? "  return true;\n}\n"
+                : "  return " + (total_.empty() ? "0.0" : total_) + " > 0.0;\n}\n";
     if (isAdaptive(scene_.quality))
       text += "float changeBeyond(Side edge, Side beyond) {\n  return " + beyond_ + ";\n}\n";
     text += fmt::format(
-        "void shade(vec3 coordinate, {}vec3 toEye, out vec3 colour, out float extinction) {{\n",
-        preintegrated ? "Side front, Side back, " : "");
+        "void shade(vec3 coordinate, {}vec3 toEye, {}out vec3 colour, out float extinction) {{\n",
+        preintegrated ? "Side front, Side back, " : "", hasSurfaces_ ? "int surface, " : "");
     if (!palettesBefore_)
       text += quantisesNormals(scene_) ? filteredGradientCode(gradients_)
                                        : gradientCode(gradients_, Normals::kExact);
@@ -480,9 +510,11 @@ class LayerCode {
   GradientOperatorSet gradients_;
   bool palettesBefore_;
   bool hasCaps_;
+  bool hasSurfaces_;
   CurveCode curves_;
   std::size_t classes_ = 0;
   std::size_t function_ = 0;  // the transfer function of the layer that is added
+  std::size_t surfaces_ = 0;
   std::string uniforms_, prepare_, ends_, classify_, beyond_, total_, body_;
   std::string begin_, finish_;  // of classify(), around a loop over voxels
 };
@@ -513,6 +545,12 @@ std::string transferScaleUniform(std::size_t function) {
 }
 std::string visibleBinsUniform(std::size_t function) {
   return fmt::format("visibleBins{}", function);
+}
+std::string isoColourUniform(std::size_t layer) {
+  return fmt::format("isoColour{}", layer);
+}
+std::string isoLineOpacityUniform(std::size_t layer) {
+  return fmt::format("isoLineOpacity{}", layer);
 }
 std::string magnitudeUniform(std::size_t layer) {
   return fmt::format("magnitude{}", layer);
@@ -550,10 +588,13 @@ std::string programHead(const Scene& scene, const ProgramOptions& options,
   if (options.severalBricks) text += "#define SEVERAL_BRICKS\n";
   if (haloReach(scene) > 0) text += "#define HALOS\n";
   if (isAdaptive(scene.quality)) text += "#define ADAPTIVE\n";
+  const auto surfaces = std::ranges::count(scene.layers, LayerMode::kIso, &Layer::mode);
+  if (surfaces > 0) text += fmt::format("#define SURFACES {}\n", surfaces);
   if (isAdaptive(scene.quality) && options.isSteep) text += "#define STEEP\n";
   if (scene.quality.preintegrated)
     text +=
-        fmt::format("#define PREINTEGRATED\n#define LAYERS {}\n", transferFunctions(scene).size());
+        fmt::format("#define PREINTEGRATED\n#define LAYERS {}\n",
+                    std::max(transferFunctions(scene).size(), std::size_t{1}));  // none: no array
   const bool palettesBefore = scene.quality.palettes == Palettes::kBefore;
   const bool atVoxels = palettesBefore || quantisesNormals(scene);
   if (atVoxels) text += "#define AT_VOXELS\n";
@@ -570,7 +611,9 @@ std::string programHead(const Scene& scene, const ProgramOptions& options,
     text += "#include \"neighbourhood.glsl\"\n";
   if (scene.quality.preintegrated) text += "#include \"preintegration.glsl\"\n";
   if (hasWidgets(scene)) text += "#include \"widgets.glsl\"\n";
-  return text + LayerCode{scene, pass}.text();
+  text += LayerCode{scene, pass}.text();
+  if (hasSurfaces(scene)) text += "#include \"exact.glsl\"\n#include \"surfaces.glsl\"\n";
+  return text;
 }
 
 }  // namespace
@@ -578,6 +621,19 @@ std::string programHead(const Scene& scene, const ProgramOptions& options,
 ShaderSource generateRaycastProgram(const Scene& scene, const ProgramOptions& options) {
   return expandIncludes(programHead(scene, options, {}) + "#include \"raycast.glsl\"\n",
                         "raycast program");
+}
+
+ShaderSource generateProjectionProgram(const Scene& scene, const ProgramOptions& options) {
+  BURIN_CHECK_EQ(scene.layers.size(), 1u);
+  std::string text =
+      fmt::format("#version 450 core\n#define CLIP_PLANES {}\n", clipPlanes(scene).size());
+  if (options.invalidVoxels) text += "#define INVALID_VOXELS\n";
+  if (options.countSamples) text += "#define COUNT_SAMPLES\n";
+  if (scene.layers.front().mode == LayerMode::kAverage) text += "#define MEAN\n";
+  for (const char* file : {"lattice.glsl", "ownership.glsl", "volume.glsl", "exact.glsl",
+                           "skip.glsl", "projection.glsl"})
+    text += fmt::format("#include \"{}\"\n", file);
+  return expandIncludes(text, "projection program");
 }
 
 ShaderSource generateSliceProgram(const Scene& scene, LayerPass pass, SliceTarget target,

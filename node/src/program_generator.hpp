@@ -27,6 +27,9 @@ bool isAdaptive(const Quality& quality);
 /// here: its parameters come from styleTable(), its code from styles/<name>.glsl.
 ShaderSource generateRaycastProgram(const Scene& scene, const ProgramOptions& options);
 
+/// Of a projection, the scene's only layer.
+ShaderSource generateProjectionProgram(const Scene& scene, const ProgramOptions& options);
+
 /// The passes that a layer takes in the slices technique (Lum & Ma, Figure 10).
 enum class LayerPass {
   kColour,  ///< pass I: the transfer function's colour and extinction under all styles but lines
@@ -54,8 +57,10 @@ std::string curveUniform(std::size_t layer, std::string_view style, std::string_
 std::string placeUniform(std::size_t layer, std::string_view style);
 /// struct HaloNeighbours of halo.glsl.
 std::string haloUniform(std::size_t layer);
-std::string magnitudeUniform(std::size_t layer);  ///< m = |gradient| * this
-std::string widgetsUniform(std::size_t layer);    ///< vec4 array: widgetRows()
+std::string magnitudeUniform(std::size_t layer);       ///< m = |gradient| * this
+std::string isoColourUniform(std::size_t layer);       ///< vec4: a surface's colour and opacity
+std::string isoLineOpacityUniform(std::size_t layer);  ///< of the lines on it
+std::string widgetsUniform(std::size_t layer);         ///< vec4 array: widgetRows()
 
 /// Those of a transfer function, by its number in transferFunctions().
 std::string transferUniform(std::size_t function);       ///< sampler1DArray

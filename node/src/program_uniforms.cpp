@@ -159,6 +159,19 @@ void setDirectionPalette(const GlProgram& program) {
   program.set("paletteDirections", directions);
 }
 
+void setSurfaceUniforms(const GlProgram& program, const Scene& scene, const ValueScale& scale) {
+  std::vector<float> values;
+  for (std::size_t i = 0; i < scene.layers.size(); ++i) {
+    const Layer& layer = scene.layers[i];
+    if (layer.mode != LayerMode::kIso) continue;
+    values.push_back(static_cast<float>(scale.stored(layer.isoValue.value())));
+    const glm::dvec3 colour = layer.transferFunction.lookUp(layer.isoValue.value()).colour;
+    program.set(isoColourUniform(i), glm::vec4{glm::dvec4{colour, layer.isoOpacity}});
+    program.set(isoLineOpacityUniform(i), static_cast<float>(layer.isoLineOpacity()));
+  }
+  program.set("isoValue", values);
+}
+
 /// `textureOffset`: of that name in volume.glsl.
 void setCapUniforms(const GlProgram& program, const Scene& scene, const VolumeGrid& grid,
                     const IndexBox& storedVoxels, const glm::dvec3& textureOffset) {
@@ -212,6 +225,8 @@ void setSceneUniforms(const GlProgram& program, const Scene& scene, const Progra
     program.set(widgetsUniform(i), widgetRows(scene.layers[i].transferFunction, volume.scale));
     setHaloUniforms(program, scene.layers[i], volume, i);
   }
+  setSurfaceUniforms(program, scene, volume.scale);
+  program.set("cellShift", toFloat(centre - glm::floor(centre)));
 }
 
 void setViewUniforms(const GlProgram& program, const Scene& scene, const Camera& camera,
@@ -265,6 +280,7 @@ void setBrickUniforms(const GlProgram& program, const Scene& scene, const Volume
   const IndexBox& stored = brick.storedVoxels();
   const glm::dvec3 textureOffset = centre - glm::dvec3{stored.lo} + 0.5;
   program.set("textureOffset", toFloat(textureOffset));
+  program.set("texelShift", toFloat(glm::floor(centre) - glm::dvec3{stored.lo}));
   program.set("textureScale", toFloat(1.0 / glm::dvec3{stored.size()}));
   program.set("cellOffset", toFloat(centre - glm::dvec3{brick.mapOrigin()}));
   setCapUniforms(program, scene, grid, stored, textureOffset);

@@ -14,6 +14,9 @@ namespace {
 constexpr double kMostOfTree = 2 * (2 * 512);
 constexpr double kMostOfTreeWithInvalid = 2 * (2 * 8192);
 constexpr double kMostOfCells = 16 * 3;
+/// And on fixed steps for each surface (kMostLooks in surface_march.glsl), after which the rest of
+/// the segment is looked up again.
+constexpr double kMostOfSurface = 24 + 2;
 /// How much of max_error the halving of one part may change, as a ray has many parts whose errors
 /// add up; less in cells, where halving takes no look-ups.
 constexpr double kToleranceOfPart = 1.0 / 10;
@@ -25,8 +28,9 @@ constexpr double kSteep = 6;
 constexpr double kSteepBelow = 1.0 / 256;  ///< max_error below which less is steep
 constexpr double kSteepThere = 1;
 
-/// Whether some transfer function may show much of what lies between two values that are close.
+/// Whether some layer may show much of what lies between two values that are close.
 bool isSteep(const Scene& scene, const ProgramVolume& volume) {
+  if (hasSurfaces(scene)) return true;
   const double steep = scene.quality.maxError.value_or(1) < kSteepBelow ? kSteepThere : kSteep;
   for (const TransferFunction& function : transferFunctions(scene)) {
     const double unit = function.opacityUnitLength.value();
@@ -42,7 +46,8 @@ bool isSteep(const Scene& scene, const ProgramVolume& volume) {
 }
 
 double mostSamplesOfSegment(const Scene& scene, const ProgramVolume& volume, bool steep) {
-  if (!isAdaptive(scene.quality)) return 1;
+  if (!isAdaptive(scene.quality))
+    return 1 + kMostOfSurface * static_cast<double>(shownSurfaces(scene).size());
   if (volume.scale.hasInvalid) return (steep ? kMostOfCells : 1) * kMostOfTreeWithInvalid;
   return steep ? kMostOfCells : kMostOfTree;
 }
@@ -75,25 +80,6 @@ void Raycaster::setScene(const Scene& scene) {
                                                   *scene_.quality.maxError));
 }
 
-void Raycaster::drawPixels(const PixelRect& pixels, double stepVoxels, RankStatistics& statistics) {
-  if (!counters_) {
-    gl().Scissor(pixels.x0, pixels.y0, pixels.width(), pixels.height());
-    gl().DrawArrays(GL_TRIANGLES, 0, 3);
-    return;
-  }
-  // The counters are 32 bits wide: bands of rows whose rays cannot have more samples than that.
-  const VolumeGrid& grid = volume_.grid;
-  const double planes = 2 * grid.boundingRadius() / (stepVoxels * grid.smallestSpacing()) + 2;
-  const double samples = planes * mostSamplesOfSegment_;
-  const int rows = std::max(1, static_cast<int>(0x1p32 / samples / pixels.width()));
-  for (int y = pixels.y0; y < pixels.y1; y += rows) {
-    counters_->begin();
-    gl().Scissor(pixels.x0, y, pixels.width(), std::min(rows, pixels.y1 - y));
-    gl().DrawArrays(GL_TRIANGLES, 0, 3);
-    counters_->addTo(statistics);
-  }
-}
-
 compositor::SubimageView<Rgba> Raycaster::draw(const Camera& camera,
                                                std::span<const Brick* const> bricks,
                                                RankStatistics& statistics, const PixelRoom& room,
@@ -119,7 +105,8 @@ compositor::SubimageView<Rgba> Raycaster::draw(const Camera& camera,
     for (const StepRun& run : stepRuns(job, scene_.quality.stepVoxels, steps)) {
       if (run.step != step) setStepUniforms(*program_, camera, volume_.grid, run.step);
       step = run.step;
-      drawPixels(run.pixels, step, statistics);
+      drawFullscreen(counters_, run.pixels, mostPlanes(volume_.grid, step) * mostSamplesOfSegment_,
+                     statistics);
     }
   }
   const std::span<const Rgba> pixels = target_.read(area, room);

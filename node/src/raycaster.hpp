@@ -25,8 +25,6 @@ class Raycaster : public BrickRenderer {
                                       const StepMap* steps) override;
 
  private:
-  void drawPixels(const PixelRect& pixels, double stepVoxels, RankStatistics& statistics);
-
   Scene scene_;
   ProgramVolume volume_;
   DrawOptions options_;

@@ -7,9 +7,11 @@
 #include <thread>
 
 #include "burin/common/error.hpp"
+#include "reference_hit.hpp"
 #include "reference_laplacian.hpp"
 #include "reference_layer.hpp"
 #include "reference_pieces.hpp"
+#include "reference_projection.hpp"
 #include "reference_ray.hpp"
 #include "reference_volume.hpp"
 
@@ -48,13 +50,29 @@ struct ReferenceRenderer::State {
     glm::dvec3 origin{0}, direction{0};  ///< per depth
     double worldPerDepth = 1;
     ReferenceView view;
+    std::span<const ReferenceLayer> layers;  ///< media and surfaces that are drawn along it
   };
 
+  ReferencePlace placeAt(const glm::dvec3& index) const;
   /// Of a segment, in index space.
-  Classified sampleOf(const glm::dvec3& begin, const glm::dvec3& end,
-                      const ReferenceView& view) const;
+  Classified sampleOf(const Path& path, const glm::dvec3& begin, const glm::dvec3& end) const;
   Span segment(const Path& path, double begin, double end) const;
+  /// A layer's surface and where a ray meets it.
+  struct Hit {
+    double depth;
+    const ReferenceLayer* layer;
+  };
+  /// Between two depths, in front first; of those at one depth the first layer's.
+  std::vector<Hit> hits(const Path& path, double begin, double end) const;
+  Span surface(const Path& path, const Hit& hit) const;
+  /// Media and surfaces: `medium(begin, end)` draws what lies between two of these.
+  template <typename Medium>
+  Span cutBySurfaces(const Path& path, double begin, double end, const Medium& medium) const;
+  /// Of the scene's step, in front first.
+  std::vector<DepthInterval> segments(const DepthInterval& interval) const;
   Span stepped(const Path& path, const DepthInterval& interval) const;
+  Span projected(const Path& path, const DepthInterval& interval,
+                 const ReferenceProjection& projection) const;
   Span converged(const Path& path, const DepthInterval& interval) const;
   Span halved(const Path& path, double begin, double end, const Span& whole, double allowed,
               int halvings) const;
@@ -65,9 +83,14 @@ struct ReferenceRenderer::State {
   Scene scene;
   ReferenceVolume volume;
   std::optional<ReferenceLaplacian> laplacian;  ///< if a layer needs it
-  std::vector<ReferenceLayer> layers;
   /// No transfer function is two-dimensional, no halos are cast: what shows is known by its values.
   bool isByValue;
+  /// What the picture is put together from, the last one on top.
+  struct Group {
+    std::vector<ReferenceLayer> layers;  ///< media and surfaces, or
+    std::optional<ReferenceProjection> projection;
+  };
+  std::vector<Group> groups;
   double stepWorld;
 };
 
@@ -78,13 +101,29 @@ ReferenceRenderer::State::State(const Scene& givenScene, BrickSource& source,
       isByValue{!hasWidgets(scene) && haloReach(scene) == 0},
       stepWorld{scene.quality.stepVoxels * volume.grid().smallestSpacing()} {
   ReferenceGradientScale scale{volume, scales.gradients};
-  for (const Layer& layer : scene.layers) layers.emplace_back(layer, scale);
+  for (const Scene& part : layerGroups(scene)) {
+    Group& group = groups.emplace_back();
+    for (const Layer& layer : part.layers) {
+      if (isProjection(layer.mode))
+        group.projection.emplace(layer);
+      else
+        group.layers.emplace_back(layer, scale);
+    }
+  }
   if (laplacianNeeded(scene)) laplacian.emplace(volume, scales.laplacian);
 }
 
+ReferencePlace ReferenceRenderer::State::placeAt(const glm::dvec3& index) const {
+  ReferencePlace place;
+  place.world = volume.grid().worldFromIndex(index);
+  place.cut = referenceCut(scene, place.world, volume.grid().smallestSpacing());
+  if (laplacian) place.laplacian = laplacian->at(index);
+  return place;
+}
+
 /// Layers are media in the same place: extinctions add, colours mix by extinction.
-Classified ReferenceRenderer::State::sampleOf(const glm::dvec3& begin, const glm::dvec3& end,
-                                              const ReferenceView& view) const {
+Classified ReferenceRenderer::State::sampleOf(const Path& path, const glm::dvec3& begin,
+                                              const glm::dvec3& end) const {
   Classified mixture{.colour = glm::dvec3{0}, .extinction = 0};
   const glm::dvec3 index = (begin + end) / 2.0;
   const auto value = volume.valueAt(index);
@@ -92,12 +131,10 @@ Classified ReferenceRenderer::State::sampleOf(const glm::dvec3& begin, const glm
   const bool preintegrated = scene.quality.preintegrated;
   const double front = preintegrated ? volume.valueAt(begin).value_or(*value) : *value;
   const double back = preintegrated ? volume.valueAt(end).value_or(*value) : *value;
-  ReferencePlace place;
-  place.world = volume.grid().worldFromIndex(index);
-  place.cut = referenceCut(scene, place.world, volume.grid().smallestSpacing());
-  if (laplacian) place.laplacian = laplacian->at(index);
+  ReferencePlace place = placeAt(index);
   PerGradientOperator<std::optional<glm::dvec3>> gradients;  // of the volume: for all layers
-  for (const ReferenceLayer& layer : layers) {
+  for (const ReferenceLayer& layer : path.layers) {
+    if (layer.isoValue()) continue;
     const auto lookAround = [&] {
       std::optional<glm::dvec3>& gradient = gradients[layer.gradientOperatorUsed()];
       if (layer.needsGradient() && !gradient)
@@ -114,8 +151,8 @@ Classified ReferenceRenderer::State::sampleOf(const glm::dvec3& begin, const glm
     // No style but halos adds extinction where the transfer functions give none.
     if (!classes.shows() && layer.halo() == nullptr) continue;
     lookAround();
-    if (layer.halo() != nullptr) place.halo = layer.halo()->castOn(place.world, volume, view);
-    const Classified sample = layer.shade(classes, place, view);
+    if (layer.halo() != nullptr) place.halo = layer.halo()->castOn(place.world, volume, path.view);
+    const Classified sample = layer.shade(classes, place, path.view);
     mixture.colour += sample.extinction * sample.colour;
     mixture.extinction += sample.extinction;
   }
@@ -123,27 +160,85 @@ Classified ReferenceRenderer::State::sampleOf(const glm::dvec3& begin, const glm
   return mixture;
 }
 
+std::vector<ReferenceRenderer::State::Hit> ReferenceRenderer::State::hits(const Path& path,
+                                                                          double begin,
+                                                                          double end) const {
+  std::vector<Hit> found;
+  for (const ReferenceLayer& layer : path.layers) {
+    if (!layer.isoValue()) continue;
+    const auto depth =
+        referenceHit([&](double at) { return volume.valueAt(path.origin + at * path.direction); },
+                     *layer.isoValue(), begin, end);
+    if (depth) found.push_back({*depth, &layer});
+  }
+  std::ranges::stable_sort(found, {}, &Hit::depth);
+  return found;
+}
+
+Span ReferenceRenderer::State::surface(const Path& path, const Hit& hit) const {
+  const ReferenceClass classes = hit.layer->isoClass();
+  if (!classes.shows()) return {};
+  const glm::dvec3 index = path.origin + hit.depth * path.direction;
+  ReferencePlace place = placeAt(index);
+  if (hit.layer->needsGradient())
+    place.gradient = volume.gradientAt(index, hit.layer->gradientOperatorUsed());
+  const Classified sample = hit.layer->shade(classes, place, path.view);
+  const double opacity = std::min(sample.extinction, 1.0);
+  return {opacity * sample.colour, opacity};
+}
+
+template <typename Medium>
+Span ReferenceRenderer::State::cutBySurfaces(const Path& path, double begin, double end,
+                                             const Medium& medium) const {
+  Span sum;
+  double from = begin;
+  for (const Hit& hit : hits(path, begin, end)) {
+    sum = over(over(sum, medium(from, hit.depth)), surface(path, hit));
+    from = hit.depth;
+  }
+  return over(sum, medium(from, end));
+}
+
 Span ReferenceRenderer::State::segment(const Path& path, double begin, double end) const {
+  if (!(begin < end)) return {};
   const Classified sample =
-      sampleOf(path.origin + begin * path.direction, path.origin + end * path.direction, path.view);
+      sampleOf(path, path.origin + begin * path.direction, path.origin + end * path.direction);
   if (sample.extinction <= 0) return {};
   const double alpha = -std::expm1(-sample.extinction * (end - begin) * path.worldPerDepth);
   return {alpha * sample.colour, alpha};
 }
 
-/// At the scene's step.
-Span ReferenceRenderer::State::stepped(const Path& path, const DepthInterval& interval) const {
-  Span sum;
+std::vector<DepthInterval> ReferenceRenderer::State::segments(const DepthInterval& interval) const {
+  std::vector<DepthInterval> all;
   const auto first = static_cast<std::int64_t>(std::floor(interval.near / stepWorld));
   const auto last = static_cast<std::int64_t>(std::ceil(interval.far / stepWorld));
   for (std::int64_t k = first; k < last; ++k) {
     const double begin = std::max(static_cast<double>(k) * stepWorld, interval.near);
     const double end = std::min(static_cast<double>(k + 1) * stepWorld, interval.far);
-    if (!(begin < end)) continue;
-    sum = over(sum, segment(path, begin, end));
+    if (begin < end) all.push_back({begin, end});
+  }
+  return all;
+}
+
+/// At the scene's step.
+Span ReferenceRenderer::State::stepped(const Path& path, const DepthInterval& interval) const {
+  Span sum;
+  for (const auto& [begin, end] : segments(interval)) {
+    sum = over(sum, cutBySurfaces(path, begin, end,
+                                  [&](double from, double to) { return segment(path, from, to); }));
     if (1 - sum.opacity < scene.quality.termination) break;
   }
   return sum;
+}
+
+Span ReferenceRenderer::State::projected(const Path& path, const DepthInterval& interval,
+                                         const ReferenceProjection& projection) const {
+  ReferenceProjection::Values values;
+  for (const auto& [begin, end] : segments(interval))
+    if (const auto value = volume.valueAt(path.origin + (begin + end) / 2 * path.direction))
+      values.push_back({*value, end - begin});
+  const ColourAndOpacity at = projection.of(values);
+  return {at.opacity * at.colour, at.opacity};
 }
 
 /// Halved until the scene's max_error is met: half of it is for what lies behind where the ray ends
@@ -154,8 +249,10 @@ Span ReferenceRenderer::State::converged(const Path& path, const DepthInterval& 
   const double allowed = share / static_cast<double>(cuts.size());
   Span sum;
   for (std::size_t i = 0; i + 1 < cuts.size() && 1 - sum.opacity > share; ++i) {
-    const Span whole = segment(path, cuts[i], cuts[i + 1]);
-    sum = over(sum, halved(path, cuts[i], cuts[i + 1], whole, allowed / (1 - sum.opacity), 0));
+    sum = over(sum, cutBySurfaces(path, cuts[i], cuts[i + 1], [&](double from, double to) {
+                 const Span whole = segment(path, from, to);
+                 return halved(path, from, to, whole, allowed / (1 - sum.opacity), 0);
+               }));
   }
   return sum;
 }
@@ -194,11 +291,20 @@ glm::dvec4 ReferenceRenderer::State::trace(const ReferenceRay& ray,
   const auto visible = visibleInterval(ray, volume.grid(), scene);
   if (!visible) return glm::dvec4{0};
   const double worldPerDepth = glm::length(ray.direction);
-  const Path path{volume.grid().indexFromWorld(ray.origin),
-                  volume.grid().worldToIndex() * ray.direction, worldPerDepth,
-                  ReferenceView{-ray.direction / worldPerDepth, lights, extent}};
-  const Span sum = scene.quality.maxError ? converged(path, *visible) : stepped(path, *visible);
-  return {sum.colour, sum.opacity};
+  Path path{volume.grid().indexFromWorld(ray.origin),
+            volume.grid().worldToIndex() * ray.direction,
+            worldPerDepth,
+            ReferenceView{-ray.direction / worldPerDepth, lights, extent},
+            {}};
+  Span picture;
+  for (const Group& group : groups) {
+    path.layers = group.layers;
+    const Span image = group.projection         ? projected(path, *visible, *group.projection)
+                       : scene.quality.maxError ? converged(path, *visible)
+                                                : stepped(path, *visible);
+    picture = over(image, picture);
+  }
+  return {picture.colour, picture.opacity};
 }
 
 ReferenceScales surveyedScales(const VolumeSurvey& survey, const Scene& scene) {

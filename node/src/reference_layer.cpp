@@ -24,7 +24,9 @@ double edgeMeasure(const ReferenceFacing& at, const ReferenceView& view) {
 ReferenceLayer::ReferenceLayer(const Layer& layer, ReferenceGradientScale& scale)
     : transferFunction_{layer.transferFunction},
       unitLength_{transferFunction_.opacityUnitLength.value()},
-      means_{transferFunction_, unitLength_} {
+      means_{transferFunction_, unitLength_},
+      isoValue_{layer.isoValue},
+      isoOpacity_{layer.isoOpacity} {
   if (transferFunction_.isTwoDimensional()) widgets_.emplace(transferFunction_, unitLength_);
   if (!layer.lineOpacity.empty()) {
     lineFunction_.emplace();
@@ -118,6 +120,12 @@ ReferenceClass ReferenceLayer::classify(double front, double back,
   const Classified mean = widgets_->between(front, back, magnitudeOf(gradient));
   if (!lineFunction_) return {mean, mean.extinction};
   return {mean, lineMeans_->between(front, back).extinction};
+}
+
+ReferenceClass ReferenceLayer::isoClass() const {
+  const double value = isoValue_.value();
+  const Classified plain{transferFunction_.lookUp(value).colour, isoOpacity_};
+  return {plain, lineFunction_ ? lineFunction_->lookUp(value).opacity : isoOpacity_};
 }
 
 Classified ReferenceLayer::shade(const ReferenceClass& classes, const ReferencePlace& place,

@@ -40,6 +40,11 @@ class ReferenceLayer {
 
   GradientOperator gradientOperatorUsed() const { return operator_; }
 
+  /// Value of the surface that the layer is, if it is one.
+  const std::optional<double>& isoValue() const { return isoValue_; }
+  /// Of such a surface: opacities stand where media have extinctions.
+  ReferenceClass isoClass() const;
+
   /// The transfer function alone: of one value, or the mean over the values between two.
   ReferenceClass classify(double value) const;
   ReferenceClass classify(double front, double back) const;
@@ -128,6 +133,8 @@ class ReferenceLayer {
   std::optional<ReferenceWidgets> widgets_;
   std::optional<TransferFunction> lineFunction_;  ///< pass II's own
   std::optional<ReferenceMeanClass> lineMeans_;
+  std::optional<double> isoValue_;
+  double isoOpacity_;
   GradientOperator operator_ = GradientOperator::kCentral;
   double noiseFloor_ = 0;
   double gradientScale_ = 0;

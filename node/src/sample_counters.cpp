@@ -1,5 +1,6 @@
 #include "sample_counters.hpp"
 
+#include <algorithm>
 #include <array>
 
 namespace burin::node {
@@ -24,6 +25,26 @@ void SampleCounters::addTo(RankStatistics& statistics) {
   statistics.samplesShaded += counts[1];
   statistics.samplesInOccupiedCells += counts[2];
   statistics.leaps += counts[3];
+}
+
+void drawFullscreen(std::optional<SampleCounters>& counters, const PixelRect& pixels,
+                    double samples, RankStatistics& statistics) {
+  if (!counters) {
+    gl().Scissor(pixels.x0, pixels.y0, pixels.width(), pixels.height());
+    gl().DrawArrays(GL_TRIANGLES, 0, 3);
+    return;
+  }
+  const int rows = std::max(1, static_cast<int>(0x1p32 / samples / pixels.width()));
+  for (int y = pixels.y0; y < pixels.y1; y += rows) {
+    counters->begin();
+    gl().Scissor(pixels.x0, y, pixels.width(), std::min(rows, pixels.y1 - y));
+    gl().DrawArrays(GL_TRIANGLES, 0, 3);
+    counters->addTo(statistics);
+  }
+}
+
+double mostPlanes(const VolumeGrid& grid, double stepVoxels) {
+  return 2 * grid.boundingRadius() / (stepVoxels * grid.smallestSpacing()) + 2;
 }
 
 }  // namespace burin::node

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <optional>
+
+#include "burin/common/geometry.hpp"
+#include "burin/common/image.hpp"
 #include "burin/common/statistics.hpp"
 #include "gl.hpp"
 
@@ -19,5 +23,13 @@ class SampleCounters {
  private:
   Buffer buffer_;
 };
+
+/// Draws the full-screen triangle in `pixels`, counting if there are counters: in bands of rows, as
+/// these are 32 bits wide. `samples`: of a ray, at most.
+void drawFullscreen(std::optional<SampleCounters>& counters, const PixelRect& pixels,
+                    double samples, RankStatistics& statistics);
+
+/// Lattice planes that a ray crosses in the volume, at most.
+double mostPlanes(const VolumeGrid& grid, double stepVoxels);
 
 }  // namespace burin::node

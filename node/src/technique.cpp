@@ -32,6 +32,11 @@ void checkTechnique(const Scene& scene, Technique technique, Precision precision
     fail(ExitCode::kUsage,
          "quality.palettes: \"before\" knows no halos, which are no voxel's own: expected "
          "\"after\"");
+  } else if (hasSurfaces(scene)) {
+    fail(
+        ExitCode::kUsage,
+        "layers: a surface (\"mode\": \"iso\") lies within slices, which draw media only: expected "
+        "--technique raycast");
   } else if (scene.quality.maxError && precision != Precision::kFloat) {
     fail(ExitCode::kUsage,
          "quality.max_error bounds what steps are wrong by, not a framebuffer of precision {}: "

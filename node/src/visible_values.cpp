@@ -66,6 +66,18 @@ VisibleValues::VisibleValues(const Scene& scene, std::span<const TransferTable> 
         show(points[k].value, points[k + 1].value);
     if (points.back().opacity > 0) show(points.back().value, kInfinity);
   }
+  for (const double from : projectedFrom(scene)) {
+    const double value = scale.stored(from);
+    intervals_.push_back({std::isfinite(value)
+                              ? below(value - kRounding * std::max(std::abs(value), 1.0))
+                              : -std::numeric_limits<float>::infinity(),
+                          std::numeric_limits<float>::infinity()});
+  }
+  for (const double surface : shownSurfaces(scene)) {
+    const double value = scale.stored(surface);
+    const double rounding = kRounding * std::max(std::abs(value), 1.0);
+    intervals_.push_back({below(value - rounding), above(value + rounding)});
+  }
   std::ranges::sort(intervals_, {}, &Interval::lowest);
   std::vector<Interval> merged;
   for (const Interval& interval : intervals_) {

@@ -11,8 +11,8 @@
 #include "burin/node/thread_share.hpp"
 #include "clip_planes.hpp"
 #include "cost_estimate.hpp"
-#include "raycaster.hpp"
-#include "slicer.hpp"
+#include "group_image.hpp"
+#include "group_renderer.hpp"
 #include "visible_blocks.hpp"
 
 namespace burin::node {
@@ -55,14 +55,6 @@ double unevenness(const BrickTree& tree, const CostEstimate& cost) {
   return sum > 0 ? largest * tree.ownerCount() / sum : 1;
 }
 
-std::unique_ptr<BrickRenderer> makeRenderer(const Scene& scene, const ProgramVolume& volume,
-                                            const WorkerOptions& options, bool severalBricks) {
-  const DrawOptions how{options.skip, options.countSamples, severalBricks};
-  if (options.technique == Technique::kSlices)
-    return std::make_unique<Slicer>(scene, volume, how, options.precision);
-  return std::make_unique<Raycaster>(scene, volume, how);
-}
-
 /// What this rank's bricks will take; `boxes`: the voxels they store.
 MemoryNeed needOf(std::span<const IndexBox> boxes, const VolumeInfo& volume,
                   const ValueScale& scale, bool hasLaplacian) {
@@ -102,7 +94,8 @@ struct Shown {
 
 bool showsTheSame(const Scene& a, const Scene& b) {
   return a.clip == b.clip && a.clipBox == b.clipBox && a.quality.palettes == b.quality.palettes &&
-         haloReach(a) == haloReach(b) && transferFunctions(a) == transferFunctions(b);
+         haloReach(a) == haloReach(b) && transferFunctions(a) == transferFunctions(b) &&
+         shownSurfaces(a) == shownSurfaces(b) && projectedFrom(a) == projectedFrom(b);
 }
 
 }  // namespace
@@ -126,8 +119,8 @@ struct Worker::State {
   bool isWhole = false;                     ///< the last load went well
   std::vector<BrickId> mine;                ///< this rank's bricks
   std::optional<OffscreenContext> context;  ///< before everything that holds GL names
-  std::unique_ptr<BrickRenderer> renderer;
-  std::vector<Brick> bricks;  ///< of mine, those of which something is loaded
+  std::vector<GroupRenderer> renderers;     ///< of the scene's groups
+  std::vector<Brick> bricks;                ///< of mine, those of which something is loaded
 
   State(const Communicator& givenComm, BrickSource& givenSource, const Scene& givenScene,
         const WorkerOptions& givenOptions)
@@ -143,6 +136,8 @@ struct Worker::State {
     return found == bricks.end() ? nullptr : &*found;
   }
   const VolumeGrid& grid() const { return source.info().grid; }
+  std::vector<const Brick*> beginGroup(const Camera& camera, std::size_t group,
+                                       RankStatistics& statistics);
 
   Shown whatShows(const Scene& next) const;
   CostEstimate costOf(const Shown& what) const {
@@ -152,6 +147,7 @@ struct Worker::State {
   bool isSplitBadly(const Scene& next, const Shown& what) const;
   bool isLoaded(const Scene& next, const Shown& what) const;
   std::size_t sharedBytes() const;
+  void setRenderers();
   void measure();
   void load();
   void loadParts();
@@ -200,7 +196,42 @@ bool Worker::State::isLoaded(const Scene& next, const Shown& what) const {
 /// What this rank holds beside its bricks: grows with the volume, but no further than the survey's
 /// blocks do.
 std::size_t Worker::State::sharedBytes() const {
-  return blocks.bytes() + shown.blocks.size() + (renderer ? renderer->tableBytes() : 0);
+  std::size_t tables = 0;
+  for (const GroupRenderer& renderer : renderers) tables += renderer.tableBytes();
+  return blocks.bytes() + shown.blocks.size() + tables;
+}
+
+/// Local. This rank's loaded bricks, front to back, ready to be drawn; counts them with the first
+/// group.
+std::vector<const Brick*> Worker::State::beginGroup(const Camera& camera, std::size_t group,
+                                                    RankStatistics& statistics) {
+  std::vector<const Brick*> inOrder;
+  if (!bricks.empty()) {
+    context->makeCurrent();
+    BURIN_CHECK(group < renderers.size());
+    for (const BrickId id : tree.visibilityOrder(camera))
+      if (const Brick* brick = find(id)) inOrder.push_back(brick);
+  }
+  if (group > 0) return inOrder;
+  statistics.bricks = static_cast<std::int32_t>(mine.size());
+  statistics.residentVoxelBytes += static_cast<std::int64_t>(sharedBytes());
+  for (const Brick* brick : inOrder)
+    statistics.residentVoxelBytes += static_cast<std::int64_t>(brick->residentBytes());
+  return inOrder;
+}
+
+/// Local. Those that the scene's groups need; programs of as many as there were are kept.
+void Worker::State::setRenderers() {
+  const std::vector<Scene> groups = layerGroups(scene);
+  const GroupRenderer::Options how{
+      {options.skip, options.countSamples, mine.size() > 1}, options.technique, options.precision};
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    if (i < renderers.size())
+      renderers[i].setScene(groups[i]);
+    else
+      renderers.emplace_back(groups[i], ProgramVolume{grid(), scale, survey.gradients}, how);
+  }
+  renderers.erase(renderers.begin() + static_cast<std::ptrdiff_t>(groups.size()), renderers.end());
 }
 
 /// Collective. The survey, and what follows from it, if the scene needs more than there is.
@@ -217,7 +248,7 @@ void Worker::State::measure() {
   blocks = VisibleBlocks{survey, scale};
   survey.blocks = {};
   isSurveyed = true;
-  renderer.reset();  // its programs know the gradients' scale
+  renderers.clear();  // their programs know the gradients' scale
 }
 
 /// Collective. Splits the volume for the scene and loads what it can show of this rank's bricks. If
@@ -260,11 +291,7 @@ void Worker::State::loadParts() {
     if (!draws) return;  // an idle rank needs no OpenGL
     if (!context) context.emplace(ContextOptions{threads, options.gl});
     context->makeCurrent();
-    if (renderer)
-      renderer->setScene(scene);
-    else
-      renderer =
-          makeRenderer(scene, {volume.grid, scale, survey.gradients}, options, mine.size() > 1);
+    setRenderers();
   });
   checkMemory(comm, need);  // OpenGL has taken its part by now
   collectively(comm, "making room for bricks", [&] {
@@ -309,7 +336,7 @@ void Worker::update(const Scene& scene) {
   const auto apply = [&] {
     if (state.bricks.empty()) return;
     state.context->makeCurrent();
-    state.renderer->setScene(state.scene);
+    state.setRenderers();
     if (!sameShown) state.classify();
   };
   try {
@@ -357,36 +384,43 @@ compositor::Subimage<Rgba> Worker::draw(const Camera& camera, RankStatistics& st
 }
 
 compositor::SubimageView<Rgba> Worker::draw(const Camera& camera, RankStatistics& statistics,
-                                            const PixelRoom& room, const StepMap* steps) {
-  std::vector<const Brick*> bricks;
-  if (!state_->bricks.empty()) {
-    for (const BrickId id : state_->tree.visibilityOrder(camera))
-      if (const Brick* brick = state_->find(id)) bricks.push_back(brick);
-  }
-  statistics.bricks = static_cast<std::int32_t>(state_->mine.size());
-  statistics.residentVoxelBytes += static_cast<std::int64_t>(state_->sharedBytes());
-  return drawThese(bricks, camera, statistics, room, steps);
+                                            const PixelRoom& room, const StepMap* steps,
+                                            std::size_t group) {
+  const std::vector<const Brick*> bricks = state_->beginGroup(camera, group, statistics);
+  if (bricks.empty()) return {camera.image, {}, {}};
+  return state_->renderers[group].media().draw(camera, bricks, statistics, room, steps);
+}
+
+compositor::Subimage<compositor::LargestValuePixel> Worker::drawLargest(const Camera& camera,
+                                                                        RankStatistics& statistics,
+                                                                        std::size_t group) {
+  const std::vector<const Brick*> bricks = state_->beginGroup(camera, group, statistics);
+  if (bricks.empty()) return {camera.image, {}, {}};
+  return state_->renderers[group].projector().largest(camera, bricks, statistics);
+}
+
+compositor::Subimage<compositor::WeightedSumPixel> Worker::drawSums(const Camera& camera,
+                                                                    RankStatistics& statistics,
+                                                                    std::size_t group) {
+  const std::vector<const Brick*> bricks = state_->beginGroup(camera, group, statistics);
+  if (bricks.empty()) return {camera.image, {}, {}};
+  return state_->renderers[group].projector().sums(camera, bricks, statistics);
+}
+
+Image<Rgba> Worker::merge(std::span<const GroupImage> images) const {
+  return mergeGroups(layerGroups(state_->scene), images, state_->scale);
 }
 
 compositor::SubimageView<Rgba> Worker::drawBrick(BrickId brick, const Camera& camera,
                                                  RankStatistics& statistics,
                                                  const PixelRoom& room) {
   BURIN_CHECK(std::ranges::find(state_->mine, brick) != state_->mine.end());
-  const Brick* const found = state_->find(brick);
   statistics.bricks = 1;
-  return drawThese(std::span{&found, found != nullptr ? 1u : 0u}, camera, statistics, room,
-                   nullptr);
-}
-
-/// `bricks`: front to back.
-compositor::SubimageView<Rgba> Worker::drawThese(std::span<const Brick* const> bricks,
-                                                 const Camera& camera, RankStatistics& statistics,
-                                                 const PixelRoom& room, const StepMap* steps) {
-  for (const Brick* brick : bricks)
-    statistics.residentVoxelBytes += static_cast<std::int64_t>(brick->residentBytes());
-  if (bricks.empty()) return {camera.image, {}, {}};
+  const Brick* const found = state_->find(brick);
+  if (found == nullptr) return {camera.image, {}, {}};
+  statistics.residentVoxelBytes += static_cast<std::int64_t>(found->residentBytes());
   state_->context->makeCurrent();
-  return state_->renderer->draw(camera, bricks, statistics, room, steps);
+  return state_->renderers.front().media().draw(camera, {&found, 1}, statistics, room, nullptr);
 }
 
 }  // namespace burin::node

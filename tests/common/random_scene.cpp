@@ -24,7 +24,7 @@ class Maker {
     if (chance())
       s.quality = quality();
     else
-      s.quality.maxError = real(1e-4, 0.5);
+      s.quality.maxError = hasProjections(s) ? std::nullopt : std::optional{real(1e-4, 0.5)};
     if (chance()) s.annotations = annotations();
     return s;
   }
@@ -146,9 +146,22 @@ class Maker {
       made.transferFunction.widgets = several<TransferWidget>(1, [&] { return widget(); });
     } else if (chance())
       for (const double value : values) made.lineOpacity.push_back({value, real(0, 1)});
+    if (!made.transferFunction.isTwoDimensional())
+      made.mode =
+          pick<LayerMode>({LayerMode::kDvr, LayerMode::kIso, LayerMode::kMip, LayerMode::kAverage});
+    const bool mayHaveHalos =
+        made.mode == LayerMode::kDvr && !made.transferFunction.isTwoDimensional();
     for (const StyleSpec& spec : styleTable()) {
-      if (spec.name == "halo" && made.transferFunction.isTwoDimensional()) continue;
+      if (spec.name == "halo" && !mayHaveHalos) continue;
       if (chance()) made.styles.push_back(settings(spec));
+    }
+    if (made.mode == LayerMode::kIso) {
+      made.isoValue = any();
+      made.isoOpacity = real(0, 1);
+    }
+    if (isProjection(made.mode)) {
+      made.styles.clear();
+      made.lineOpacity.clear();
     }
     return made;
   }

@@ -144,6 +144,10 @@ TEST(SceneError, TwoDimensionalTransferFunctions) {
 { "widgets": [{ "shape": "rectangle", "value": [0, 1], "color": "#fff", "opacity": 1 }] },
 "style": { "halo": {} } }] })"),
               HasSubstr("'halo' finds features by value alone"));
+  EXPECT_THAT(complaint(R"({ "schema_version": 1, "layers": [{ "transfer_function":
+{ "widgets": [{ "shape": "rectangle", "value": [0, 1], "color": "#fff", "opacity": 1 }] },
+"mode": "mip" }] })"),
+              HasSubstr("mode \"mip\" is by value alone"));
 }
 
 TEST(SceneError, OtherVersions) {

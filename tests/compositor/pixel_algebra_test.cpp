@@ -22,9 +22,9 @@ constexpr int kTrials = 20'000;
 template <typename A>
 class EveryAlgebra : public testing::Test {};
 using Algebras =
-    testing::Types<test::Affine, Over, OverHalf, Maximum, Nearest, Silhouette, SilhouetteDepth,
-                   FlatRecords<1>, FlatRecords<4>, FlatRecords<9>, FlatRecords<32>,
-                   Product<Channel<"beauty", Over>, Channel<"first", Nearest>>,
+    testing::Types<test::Affine, Over, OverHalf, Maximum, LargestValue, WeightedSum, Nearest,
+                   Silhouette, SilhouetteDepth, FlatRecords<1>, FlatRecords<4>, FlatRecords<9>,
+                   FlatRecords<32>, Product<Channel<"beauty", Over>, Channel<"first", Nearest>>,
                    Product<Channel<"silhouette", Silhouette>, Channel<"beauty", Over>,
                            Channel<"flat", FlatRecords<3>>>>;
 TYPED_TEST_SUITE(EveryAlgebra, Algebras);

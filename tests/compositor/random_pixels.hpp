@@ -6,12 +6,14 @@
 #include <random>
 
 #include "burin/compositor/flat_records.hpp"
+#include "burin/compositor/largest_value.hpp"
 #include "burin/compositor/maximum.hpp"
 #include "burin/compositor/nearest.hpp"
 #include "burin/compositor/over_half.hpp"
 #include "burin/compositor/product.hpp"
 #include "burin/compositor/silhouette.hpp"
 #include "burin/compositor/silhouette_depth.hpp"
+#include "burin/compositor/weighted_sum.hpp"
 
 /// Random elements of every pixel algebra, and how equal two groupings of them must be.
 namespace burin::compositor::test {
@@ -47,6 +49,15 @@ inline MaximumPixel randomPixel(const Maximum&, Random& random) {
   const float value = randomKey(Maximum::identity().value, random);
   return Maximum::isIdentity({value, {}}) ? MaximumPixel{}
                                           : MaximumPixel{value, randomPixel(Over{}, random)};
+}
+
+inline LargestValuePixel randomPixel(const LargestValue&, Random& random) {
+  return {randomKey(LargestValue::identity().value, random)};
+}
+
+/// Whole numbers, whose sums are exact.
+inline WeightedSumPixel randomPixel(const WeightedSum&, Random& random) {
+  return {static_cast<float>(below(random, 9) - 4), static_cast<float>(below(random, 5))};
 }
 
 inline NearestPixel randomPixel(const Nearest&, Random& random) {

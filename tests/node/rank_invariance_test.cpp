@@ -5,16 +5,12 @@
 #include <gtest/gtest.h>
 
 #include "burin/compositor/compositor.hpp"
+#include "node/layer_modes.hpp"
 #include "support/drawing.hpp"
 #include "support/mpi_test.hpp"
-#include "support/scenes.hpp"
 
 namespace burin::test {
 namespace {
-
-// As in brick_invariance_test.cpp; the compositor adds rounding of over alone, 1e-7.
-constexpr double kLargest = 5e-5;
-constexpr double kRms = 2e-6;
 
 /// Collective. The frame in rank 0's memory; a value on rank 0 alone.
 std::optional<Image<Rgba>> drawTogether(node::Worker& worker, const Camera& camera) {
@@ -69,6 +65,50 @@ TEST(RankInvariance, EveryStyle) {
     const Scene scene = resolved(sceneWithStyle(style), source);
     expectSameAsAlone(scene, source, cameras(scene, source.info().grid), {});
   }
+}
+
+/// Collective. The ranks' subimages as one image in rank 0's memory; empty on the others.
+template <compositor::PixelAlgebra A>
+Image<typename A::Pixel> together(const compositor::Subimage<typename A::Pixel>& mine,
+                                  const std::vector<Rank>& order) {
+  RankStatistics statistics;
+  compositor::Compositor merge{world()};
+  const auto view = merge.toRoot<A>({}, order, mine, {}, statistics);
+  if (!view) return {};
+  Image<typename A::Pixel> image{view->size()};
+  std::ranges::copy(view->pixels(), image.pixels().begin());
+  return image;
+}
+
+TEST(RankInvariance, SurfacesAndProjections) {
+  ArraySource source = smoothVolume(gridOf({36, 37, 29}, {1.0, 0.8, 1.4}));
+  Scene scene = sceneOfAllModes();
+  scene.layers.pop_back();  // groups: media with a surface, the largest value, the mean
+  scene = resolved(scene, source);
+  const Camera camera = cameras(scene, source.info().grid).front();
+  node::Worker worker{world(), scene, source, {}};
+  const std::vector<Rank> order = worker.visibilityOrder(camera);
+  RankStatistics statistics;
+  std::vector<node::GroupImage> images;
+  images.emplace_back(together<compositor::Over>(worker.draw(camera, statistics), order));
+  images.emplace_back(
+      together<compositor::LargestValue>(worker.drawLargest(camera, statistics, 1), order));
+  images.emplace_back(
+      together<compositor::WeightedSum>(worker.drawSums(camera, statistics, 2), order));
+  if (!world().isRoot()) return;
+  const Communicator self{MPI_COMM_SELF};
+  node::Worker alone{self, scene, source, {.bricks = 1}};
+  const std::vector<node::GroupImage> one = drawGroups(alone, scene, camera, statistics);
+  EXPECT_TRUE(std::ranges::equal(std::get<Image<compositor::LargestValuePixel>>(images[1]).pixels(),
+                                 std::get<Image<compositor::LargestValuePixel>>(one[1]).pixels()));
+  const Image<Rgba> merged = alone.merge(one);
+  EXPECT_GT(largestAlpha(merged), 0.3);
+  const Image<Rgba> ofAll = worker.merge(images);
+  const Difference d =
+      differenceBeyond(surfaceSlack(scene, source, camera), std::span<const Rgba>{merged.pixels()},
+                       std::span<const Rgba>{ofAll.pixels()});
+  EXPECT_LE(d.largest, kLargest);
+  EXPECT_LE(d.rms, kRms);
 }
 
 TEST(RankInvariance, MoreBricksThanRanks) {

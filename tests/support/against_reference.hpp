@@ -29,7 +29,7 @@ inline DrawnAndTrue drawWithReference(const Scene& scene, node::BrickSource& sou
   const Communicator self{MPI_COMM_SELF};
   node::Worker worker{self, scene, source, options};
   RankStatistics statistics;
-  DrawnAndTrue both{wholeFrame(worker.draw(camera, statistics)), {}};
+  DrawnAndTrue both{drawFrame(worker, scene, camera, statistics), {}};
   const node::ReferenceRenderer reference{scene, source,
                                           node::surveyedScales(worker.survey(), scene)};
   for (const glm::dvec4& p : reference.render(camera, 0, camera.image.height, 2))

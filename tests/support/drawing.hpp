@@ -18,8 +18,9 @@ inline Scene resolved(Scene scene, const node::BrickSource& source) {
 }
 
 /// A subimage as a whole frame.
-inline Image<Rgba> wholeFrame(const compositor::Subimage<Rgba>& subimage) {
-  Image<Rgba> image{subimage.frame};
+template <typename Pixel>
+Image<Pixel> wholeFrame(const compositor::Subimage<Pixel>& subimage) {
+  Image<Pixel> image{subimage.frame};
   const PixelRect& active = subimage.active;
   const auto width = static_cast<std::size_t>(active.width());
   for (int y = active.y0; y < active.y1; ++y)
@@ -29,6 +30,38 @@ inline Image<Rgba> wholeFrame(const compositor::Subimage<Rgba>& subimage) {
   return image;
 }
 
+/// The images of a scene's groups, of a worker that is alone.
+inline std::vector<node::GroupImage> drawGroups(node::Worker& worker, const Scene& scene,
+                                                const Camera& camera, RankStatistics& statistics) {
+  std::vector<node::GroupImage> images;
+  for (const Scene& group : layerGroups(scene)) {
+    const std::size_t number = images.size();
+    if (group.layers.front().mode == LayerMode::kMip) {
+      images.emplace_back(wholeFrame(worker.drawLargest(camera, statistics, number)));
+    } else if (group.layers.front().mode == LayerMode::kAverage) {
+      images.emplace_back(wholeFrame(worker.drawSums(camera, statistics, number)));
+    } else {
+      compositor::Subimage<Rgba> image{camera.image, {}, {}};
+      const auto room = [&](std::size_t pixels) {
+        image.pixels.resize(pixels);
+        return std::span{image.pixels};
+      };
+      image.active = worker.draw(camera, statistics, room, nullptr, number).active;
+      images.emplace_back(wholeFrame(image));
+    }
+  }
+  return images;
+}
+
+/// The frame of a worker that is alone.
+inline Image<Rgba> drawFrame(node::Worker& worker, const Scene& scene, const Camera& camera,
+                             RankStatistics& statistics) {
+  const std::vector<node::GroupImage> images = drawGroups(worker, scene, camera, statistics);
+  if (images.size() == 1 && std::holds_alternative<Image<Rgba>>(images.front()))
+    return std::get<Image<Rgba>>(images.front());
+  return worker.merge(images);
+}
+
 /// Draws on this process alone.
 inline Image<Rgba> drawAlone(const Scene& scene, node::BrickSource& source, const Camera& camera,
                              const node::WorkerOptions& options = {},
@@ -36,7 +69,7 @@ inline Image<Rgba> drawAlone(const Scene& scene, node::BrickSource& source, cons
   const Communicator self{MPI_COMM_SELF};
   node::Worker worker{self, scene, source, options};
   RankStatistics local;
-  return wholeFrame(worker.draw(camera, statistics != nullptr ? *statistics : local));
+  return drawFrame(worker, scene, camera, statistics != nullptr ? *statistics : local);
 }
 
 struct Difference {

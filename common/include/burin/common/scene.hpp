@@ -11,6 +11,7 @@
 #include "burin/common/annotations.hpp"
 #include "burin/common/camera.hpp"
 #include "burin/common/gradient_operator.hpp"
+#include "burin/common/layer_mode.hpp"
 #include "burin/common/style.hpp"
 #include "burin/common/transfer_function.hpp"
 
@@ -79,11 +80,17 @@ struct Layer {
   /// Pass II's own opacity by value, as the transfer function's; none: the transfer function's.
   std::vector<OpacityPoint> lineOpacity = {};
   std::vector<StyleSettings> styles;  ///< in the order of styleTable(), each at most once
+  LayerMode mode = LayerMode::kDvr;
+  std::optional<double> isoValue = std::nullopt;  ///< data units; set in mode kIso, and there alone
+  /// Of the surface wherever a ray meets it; its colour is the transfer function's at isoValue.
+  double isoOpacity = 1;
 
   /// nullptr when the layer does not use that style.
   const StyleSettings* style(std::string_view styleName) const;
   /// Whether any style works on lines.
   bool hasLines() const;
+  /// Opacity of the lines on a surface: lineOpacity at isoValue; isoOpacity if there is none.
+  double isoLineOpacity() const;
   friend bool operator==(const Layer&, const Layer&) = default;
 };
 
@@ -197,8 +204,9 @@ bool hasWidgets(const Scene& scene);
 /// Largest ghost width that any layer's styles declare, two-dimensional transfer functions take or
 /// that the ends of pre-integrated segments need; 0 if nothing looks beyond a brick's own cells.
 int ghostLayersNeeded(const Scene& scene);
-/// What a scene looks up by value: the transfer function of each layer (the envelope of a
-/// two-dimensional one), followed by that of its lines (black) if it has line opacities.
+/// What a scene looks up by value along a ray: the transfer function of each layer that is a
+/// medium (the envelope of a two-dimensional one), followed by that of its lines (black) if it has
+/// line opacities.
 std::vector<TransferFunction> transferFunctions(const Scene& scene);
 /// The operator that a layer's gradients are made with, whether any of its styles needs them or
 /// not.
@@ -221,6 +229,19 @@ HaloNeighbourhood haloNeighbourhood(const StyleSettings& halo);
 /// How far beyond what its transfer functions show the halos of a scene may show, in smallest
 /// spacings; 0 without halos.
 double haloReach(const Scene& scene);
+/// Whether any layer is a surface.
+bool hasSurfaces(const Scene& scene);
+/// Whether any layer is a projection.
+bool hasProjections(const Scene& scene);
+/// The scene in parts that are drawn by themselves, each an image, in list order: neighbouring
+/// media and surfaces together, as they share the space they are in; every projection alone. Later
+/// images lie over earlier ones.
+std::vector<Scene> layerGroups(const Scene& scene);
+/// Of each projection of which anything may show the value from which on values of the volume
+/// matter to it, data units: -infinity if all do.
+std::vector<double> projectedFrom(const Scene& scene);
+/// The iso-values of the layers that are surfaces and of which, lines included, anything shows.
+std::vector<double> shownSurfaces(const Scene& scene);
 
 /// JSON Schema (draft 2020-12) of the scene file: the text of configs/schema.json.
 std::string sceneSchemaJson();

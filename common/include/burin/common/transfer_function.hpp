@@ -16,7 +16,13 @@ struct TransferPoint {
   friend bool operator==(const TransferPoint&, const TransferPoint&) = default;
 };
 
-/// What a transfer function says about one value.
+/// What a transfer function says about one value, as it was written.
+struct ColourAndOpacity {
+  glm::dvec3 colour;   ///< linear RGB, not premultiplied
+  double opacity = 0;  ///< in [0, 1], per opacity unit length
+};
+
+/// What a transfer function says about one value of a medium.
 struct Classified {
   glm::dvec3 colour;      ///< linear RGB, not premultiplied
   double extinction = 0;  ///< per world unit
@@ -34,7 +40,9 @@ struct TransferFunction {
   std::vector<TransferWidget> widgets = {};
 
   bool isTwoDimensional() const { return !widgets.empty(); }
-  /// Exact evaluation in double, of points. `unitLength`: opacityUnitLength, resolved.
+  /// Exact evaluation in double, of points.
+  ColourAndOpacity lookUp(double value) const;
+  /// The same with extinctions. `unitLength`: opacityUnitLength, resolved.
   Classified classify(double value, double unitLength) const;
   /// The same of widgets; `magnitude`: m in [0, 1]. Colours are mixed by extinction, black where
   /// there is none.

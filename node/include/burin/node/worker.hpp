@@ -12,6 +12,7 @@
 #include "burin/common/statistics.hpp"
 #include "burin/compositor/subimage.hpp"
 #include "burin/node/brick_source.hpp"
+#include "burin/node/group_image.hpp"
 #include "burin/node/offscreen_context.hpp"
 #include "burin/node/step_map.hpp"
 #include "burin/node/survey.hpp"
@@ -69,11 +70,25 @@ class Worker {
 
   /// Local. Draws this rank's bricks into one subimage (empty active rectangle if nothing is
   /// visible) and adds to the statistics. `steps` replaces the scene's step if given; its largest
-  /// must be covered by the ghost layers that the scene asked for. Throws Error{kRank} if GL fails.
+  /// must be covered by the ghost layers that the scene asked for. `group`: which of the scene's
+  /// layerGroups(), of media and surfaces. Throws Error{kRank} if GL fails.
   compositor::SubimageView<Rgba> draw(const Camera& camera, RankStatistics& statistics,
-                                      const PixelRoom& room, const StepMap* steps = nullptr);
+                                      const PixelRoom& room, const StepMap* steps = nullptr,
+                                      std::size_t group = 0);
   /// The same, into memory of its own.
   compositor::Subimage<Rgba> draw(const Camera& camera, RankStatistics& statistics);
+
+  /// Local. The same of groups that are projections, of mode kMip and kAverage.
+  compositor::Subimage<compositor::LargestValuePixel> drawLargest(const Camera& camera,
+                                                                  RankStatistics& statistics,
+                                                                  std::size_t group);
+  compositor::Subimage<compositor::WeightedSumPixel> drawSums(const Camera& camera,
+                                                              RankStatistics& statistics,
+                                                              std::size_t group);
+  /// Local. The picture from the images of all groups of the scene, in their order: projections
+  /// classified in double by their transfer functions (opacity as it is written), later images over
+  /// earlier ones.
+  Image<Rgba> merge(std::span<const GroupImage> images) const;
 
   /// Local. Draws one of this rank's bricks and nothing else: what a rank that owned just that one
   /// would draw. For measuring the parts of many ranks on one. Throws std::logic_error if this rank
@@ -82,10 +97,6 @@ class Worker {
                                            RankStatistics& statistics, const PixelRoom& room);
 
  private:
-  compositor::SubimageView<Rgba> drawThese(std::span<const Brick* const> bricks,
-                                           const Camera& camera, RankStatistics& statistics,
-                                           const PixelRoom& room, const StepMap* steps);
-
   struct State;
   std::unique_ptr<State> state_;
 };
