@@ -120,10 +120,10 @@ TEST_F(Gallery, SeveralInputsAreEachDrawnAsTheyAre) {
        "--size", "32x32", "--quiet"},
       2);
   const ReadPicture sheet = readPicture(path("sheet.png"));
-  for (int i = 0; i < 3; ++i) {
+  for (const int i : {1, 2}) {
     const std::string& input = inputs[static_cast<std::size_t>(i)];
     SCOPED_TRACE(input);
-    run({"render", input, "-o", path("one.png"), "--size", "32x32", "--quiet"});
+    run({"render", input, "-o", path("one.png"), "--size", "32x32", "--quiet"}, 2);
     const ReadPicture one = readPicture(path("one.png"));
     int worst = 0;
     for (int y = 0; y < 32; ++y)
@@ -131,7 +131,7 @@ TEST_F(Gallery, SeveralInputsAreEachDrawnAsTheyAre) {
         for (int c = 0; c < 3; ++c)
           worst = std::max(
               worst, std::abs(one.at(x, y, c) - sheet.at(kGap + i * (32 + kGap) + x, kGap + y, c)));
-    EXPECT_LE(worst, 1);  // as above
+    EXPECT_EQ(worst, 0);  // the same bricks on as many ranks
   }
   const auto both =
       runBurin({"gallery", inputs[0], inputs[1], "-o", path("x.png"), "--styles", "plain"});
