@@ -33,39 +33,47 @@ int squareColumns(int count) {
   return std::max(1, static_cast<int>(std::ceil(std::sqrt(static_cast<double>(count)))));
 }
 
-ContactSheet::ContactSheet(ImageSize panel, int count, int columns, int labelLines)
-    : panel_{panel},
-      columns_{std::min(columns, count)},
-      fontSize_{std::clamp(panel.width / kFontsPerPanel, kSmallestFont, kLargestFont)},
-      lineHeight_{textMask("x", fontSize_).height},
-      labelLines_{labelLines} {
-  const int rows = (count + columns_ - 1) / columns_;
-  const long long width = kGap + static_cast<long long>(columns_) * (panel.width + kGap);
+SheetLayout layOutSheet(ImageSize panel, int count, int columns, int labelLines) {
+  SheetLayout layout;
+  layout.panel = panel;
+  layout.labelLines = labelLines;
+  layout.columns = std::min(columns, count);
+  layout.fontSize = std::clamp(panel.width / kFontsPerPanel, kSmallestFont, kLargestFont);
+  layout.lineHeight = textMask("x", layout.fontSize).height;
+  layout.labelHeight = labelLines * layout.lineHeight;
+  const int rows = (count + layout.columns - 1) / layout.columns;
+  const long long width = kGap + static_cast<long long>(layout.columns) * (panel.width + kGap);
   const long long height =
-      kGap + static_cast<long long>(rows) * (panel.height + labelLines_ * lineHeight_ + kGap);
+      kGap + static_cast<long long>(rows) * (panel.height + layout.labelHeight + kGap);
   if (std::max(width, height) > kLargestImageSide) {
     fail(ExitCode::kUsage, "a sheet of {} x {} pixels, expected at most {} on a side", width,
          height, kLargestImageSide);
   }
-  sheet_.size = {static_cast<int>(width), static_cast<int>(height)};
+  layout.size = {static_cast<int>(width), static_cast<int>(height)};
+  return layout;
+}
+
+ContactSheet::ContactSheet(const SheetLayout& layout) : layout_{layout} {
+  sheet_.size = layout.size;
   sheet_.channels = 3;
   sheet_.bytes.assign(3 * sheet_.size.pixels(), kPaper.r);
 }
 
 void ContactSheet::place(int index, const DisplayPicture& picture, const std::string& label) {
-  BURIN_CHECK(picture.size == panel_ && picture.channels == 3);
-  const int x = kGap + index % columns_ * (panel_.width + kGap);
-  const int y = kGap + index / columns_ * (panel_.height + labelLines_ * lineHeight_ + kGap);
-  const auto rowBytes = 3 * static_cast<std::ptrdiff_t>(panel_.width);
-  for (int row = 0; row < panel_.height; ++row) {
+  const ImageSize panel = layout_.panel;
+  BURIN_CHECK(picture.size == panel && picture.channels == 3);
+  const int x = kGap + index % layout_.columns * (panel.width + kGap);
+  const int y = kGap + index / layout_.columns * (panel.height + layout_.labelHeight + kGap);
+  const auto rowBytes = 3 * static_cast<std::ptrdiff_t>(panel.width);
+  for (int row = 0; row < panel.height; ++row) {
     const auto from = picture.bytes.begin() + row * rowBytes;
     const auto to = 3 * ((y + row) * static_cast<std::ptrdiff_t>(sheet_.size.width) + x);
     std::copy(from, from + rowBytes, sheet_.bytes.begin() + to);
   }
-  int below = y + panel_.height;
+  int below = y + layout_.panel.height;
   for (const InkMask& line : lines(label)) {
-    drawInk(sheet_, line, x + (panel_.width - line.width) / 2, below, kInk);
-    below += lineHeight_;
+    drawInk(sheet_, line, x + (layout_.panel.width - line.width) / 2, below, kInk);
+    below += layout_.lineHeight;
   }
 }
 
@@ -74,9 +82,9 @@ std::vector<InkMask> ContactSheet::lines(const std::string& label) const {
   std::istringstream words{label};
   for (std::string word; words >> word;) {
     const std::string longer = texts.empty() ? word : texts.back() + " " + word;
-    if (!texts.empty() && textMask(longer, fontSize_).width <= panel_.width) {
+    if (!texts.empty() && textMask(longer, layout_.fontSize).width <= layout_.panel.width) {
       texts.back() = longer;
-    } else if (static_cast<int>(texts.size()) < labelLines_) {
+    } else if (static_cast<int>(texts.size()) < layout_.labelLines) {
       texts.push_back(word);
     } else {
       texts.back() = longer;  // cut off
@@ -85,7 +93,7 @@ std::vector<InkMask> ContactSheet::lines(const std::string& label) const {
   }
   std::vector<InkMask> masks;
   for (const std::string& text : texts)
-    masks.push_back(leftPart(textMask(text, fontSize_), panel_.width));
+    masks.push_back(leftPart(textMask(text, layout_.fontSize), layout_.panel.width));
   return masks;
 }
 

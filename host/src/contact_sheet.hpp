@@ -9,12 +9,25 @@
 
 namespace burin::host {
 
+/// How a sheet is divided.
+struct SheetLayout {
+  ImageSize panel;
+  int columns = 1;
+  int fontSize = 0;
+  int labelLines = 1;
+  int lineHeight = 0;
+  int labelHeight = 0;  ///< of all lines
+  ImageSize size;       ///< of all of it
+};
+
+/// Room for `count` panels with labels of so many lines. Throws Error{kUsage} if the sheet would be
+/// larger than a picture may be, or if there is no font.
+SheetLayout layOutSheet(ImageSize panel, int count, int columns, int labelLines = 1);
+
 /// Pictures of one size in rows from top left, each with lines of text below. 3 channels.
 class ContactSheet {
  public:
-  /// Room for `count` panels with labels of so many lines. Throws Error{kUsage} if the sheet would
-  /// be larger than a picture may be, or if there is no font.
-  ContactSheet(ImageSize panel, int count, int columns, int labelLines = 1);
+  explicit ContactSheet(const SheetLayout& layout);
 
   /// Panel `index` gets that picture (3 channels, of the panel's size) and that label, broken into
   /// lines between words; what is longer than a line or than all of them is cut off.
@@ -25,11 +38,7 @@ class ContactSheet {
  private:
   std::vector<InkMask> lines(const std::string& label) const;
 
-  ImageSize panel_;
-  int columns_;
-  int fontSize_;
-  int lineHeight_;
-  int labelLines_;
+  SheetLayout layout_;
   DisplayPicture sheet_;
 };
 

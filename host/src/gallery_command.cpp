@@ -14,6 +14,7 @@
 #include "burin/host/scene_setup.hpp"
 #include "burin/host/shared_error.hpp"
 #include "contact_sheet.hpp"
+#include "picture_need.hpp"
 
 namespace burin::host {
 
@@ -56,6 +57,15 @@ Scene inStyle(Scene scene, const NamedStyle& style) {
   return scene;
 }
 
+/// What a sheet takes, of which one panel at a time is a picture.
+MemoryNeed sheetNeed(const Communicator& comm, const SheetLayout& layout) {
+  MemoryNeed need = pictureNeed(comm, layout.panel);
+  if (!comm.isRoot()) return need;
+  need.bytes += static_cast<std::int64_t>(3 * layout.size.pixels());
+  need.purpose = fmt::format("a sheet of {}x{} pixels", layout.size.width, layout.size.height);
+  return need;
+}
+
 /// The loop over the panels, on all ranks; rank 0 has the sheet besides. A panel is a style of the
 /// one input, or one of several inputs.
 class Gallery {
@@ -75,12 +85,15 @@ class Gallery {
       unstyled_ = prepared_.scene;
       onRoot(comm_, [&] { checkConflicts(options_.render, prepared_.scene.volume.file); });
     }
+    SheetLayout layout;
     onRoot(comm_, [&] {
       loadPictureEncoder();
-      sheet_.emplace(*options_.render.size, count_,
-                     options_.columns > 0 ? options_.columns : squareColumns(count_),
-                     hasInputs_ ? kTitleLines : 1);
+      layout = layOutSheet(*options_.render.size, count_,
+                           options_.columns > 0 ? options_.columns : squareColumns(count_),
+                           hasInputs_ ? kTitleLines : 1);
     });
+    checkMemory(comm_, sheetNeed(comm_, layout));
+    if (comm_.isRoot()) sheet_.emplace(layout);
   }
 
   int run() {

@@ -4,11 +4,11 @@
 
 #include "burin/common/error.hpp"
 #include "burin/common/log.hpp"
-#include "burin/common/memory_check.hpp"
 #include "burin/common/temporary_file.hpp"
 #include "burin/host/interrupt.hpp"
 #include "burin/host/shared_error.hpp"
 #include "burin/host/trace_file.hpp"
+#include "picture_need.hpp"
 
 namespace burin::host {
 
@@ -19,15 +19,6 @@ struct FrameReport {
   RankStatistics statistics;
   std::int64_t signal = 0;
 };
-
-/// What a picture takes at least, all of it on rank 0: the frame as merged, as drawn there by
-/// OpenGL or in double, and as 8 bits or encoded floats. What other ranks draw depends on the view.
-MemoryNeed pictureNeed(const Communicator& comm, ImageSize size) {
-  constexpr std::size_t kBytesPerPixel = 2 * sizeof(Rgba) + 4;
-  if (!comm.isRoot()) return {};
-  return {static_cast<std::int64_t>(size.pixels() * kBytesPerPixel),
-          fmt::format("a picture of {}x{} pixels", size.width, size.height)};
-}
 
 }  // namespace
 

@@ -69,7 +69,7 @@ TEST(DrawInk, LeavesOutWhatIsOutside) {
 
 TEST(ContactSheet, PlacesPanelsInRows) {
   const ImageSize panel{20, 10};
-  ContactSheet sheet{panel, 5, 3};
+  ContactSheet sheet{layOutSheet(panel, 5, 3)};
   const int width = sheet.picture().size.width;
   const int height = sheet.picture().size.height;
   EXPECT_EQ(width, 4 + 3 * 24);
@@ -90,7 +90,7 @@ TEST(ContactSheet, PlacesPanelsInRows) {
       EXPECT_EQ(at(x + 20, y + dy), 255);
     }
   }
-  EXPECT_THROW((ContactSheet{{8000, 8000}, 9, 3}), Error);
+  EXPECT_THROW(layOutSheet({8000, 8000}, 9, 3), Error);
 }
 
 /// The darkest red in rows [top, top + rows) of the sheet.
@@ -104,7 +104,7 @@ TEST(ContactSheet, BreaksLabelsBetweenWords) {
   const ImageSize panel{90, 10};
   constexpr int kTop = 4 + 10;  // of the first line
   const auto labelled = [&](int lines, const std::string& label) {
-    ContactSheet sheet{panel, 1, 1, lines};
+    ContactSheet sheet{layOutSheet(panel, 1, 1, lines)};
     sheet.place(0, flat(panel, 3, 255), label);
     return sheet;
   };

@@ -17,6 +17,7 @@ namespace {
 using test::onlyLine;
 using test::runBurin;
 using test::TemporaryFolder;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
@@ -153,6 +154,15 @@ TEST_F(Gallery, MistakesAreOneLineAndLeaveNothing) {
   EXPECT_EQ(exr.exitCode, 2);
   EXPECT_THAT(onlyLine(exr.err), HasSubstr("ends in .png"));
   EXPECT_FALSE(std::filesystem::exists(path("sheet.png")));
+}
+
+TEST_F(Gallery, SheetLargerThanTheMemory) {
+  const auto result = runBurin({"gallery", path("s.json"), "-o", path("sheet.png"), "--styles",
+                                "plain,toon", "--columns", "2", "--size", "8000x8000"},
+                               0, "limited() { (ulimit -v 2000000; exec \"$@\"); }; limited");
+  EXPECT_EQ(result.exitCode, 4);
+  // The panel as floats twice and as bytes, and two of them on the sheet as bytes.
+  EXPECT_THAT(onlyLine(result.err), AllOf(HasSubstr("a sheet of 16012x80"), HasSubstr("2.5 GiB")));
 }
 
 TEST_F(Gallery, NamedStylesAreListed) {
