@@ -31,6 +31,12 @@ class FileHandle {
   /// Reads exactly out.size() bytes. Throws Error{kVolume} if the file ends before.
   void readExactly(std::uint64_t offset, std::span<std::byte> out) const;
 
+  /// Reads pieces of `pieceBytes` each, which begin `stride` (at least that) bytes apart in the
+  /// file from `offset` on, into `out`, next to each other (a multiple of a piece). Throws
+  /// Error{kVolume} if the file ends before.
+  void readPieces(std::uint64_t offset, std::size_t pieceBytes, std::size_t stride,
+                  std::span<std::byte> out) const;
+
  private:
   std::filesystem::path path_;
   int descriptor_ = -1;

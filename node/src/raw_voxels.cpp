@@ -1,7 +1,5 @@
 #include "raw_voxels.hpp"
 
-#include <algorithm>
-
 #include "burin/common/error.hpp"
 #include "byte_order.hpp"
 #include "stored_voxels.hpp"
@@ -60,31 +58,19 @@ void RawVoxels::read(const IndexBox& region, std::span<std::byte> out) {
 }
 
 /// One z plane of the region. Rows that make up at least an eighth of the bytes between the first
-/// and the last are read in one go and picked out: a system call costs as much as reading some KiB.
+/// and the last are read in one go: a system call costs as much as reading some KiB.
 void RawVoxels::readPlane(const IndexBox& region, int z, std::span<std::byte> out) {
-  constexpr std::uint64_t kWorthwhile = 8;
-  constexpr std::uint64_t kScratchLimit = std::uint64_t{32} << 20;
+  constexpr std::size_t kWorthwhile = 8;
   const std::size_t rowBytes = static_cast<std::size_t>(region.size().x) * layout_.voxelBytes();
+  const std::size_t stride = static_cast<std::size_t>(layout_.dims.x) * layout_.voxelBytes();
   const std::uint64_t first = byteOffset(region.lo.x, region.lo.y, z);
-  const std::uint64_t length = byteOffset(region.lo.x, region.hi.y - 1, z) + rowBytes - first;
-  if (length == out.size()) {
+  if (rowBytes == stride) {
     file_.readExactly(first, out);
-    return;
-  }
-  const bool together = length <= kScratchLimit && length / kWorthwhile <= out.size();
-  if (together) {
-    scratch_.resize(static_cast<std::size_t>(length));
-    file_.readExactly(first, scratch_);
-  }
-  for (int y = region.lo.y; y < region.hi.y; ++y) {
-    const auto row =
-        out.subspan(static_cast<std::size_t>(y - region.lo.y) * rowBytes).first(rowBytes);
-    const std::uint64_t from = byteOffset(region.lo.x, y, z);
-    if (together) {
-      std::ranges::copy(std::span{scratch_}.subspan(from - first, rowBytes), row.begin());
-    } else {
-      file_.readExactly(from, row);
-    }
+  } else if (stride / kWorthwhile <= rowBytes) {
+    file_.readPieces(first, rowBytes, stride, out);
+  } else {
+    for (std::size_t done = 0; done < out.size(); done += rowBytes)
+      file_.readExactly(first + done / rowBytes * stride, out.subspan(done, rowBytes));
   }
 }
 

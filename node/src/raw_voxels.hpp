@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "file_handle.hpp"
 #include "stored_reader.hpp"
@@ -27,7 +26,6 @@ class RawVoxels : public StoredReader {
   FileHandle file_;
   std::uint64_t start_;
   bool swap_;
-  std::vector<std::byte> scratch_;
 };
 
 }  // namespace burin::node
