@@ -36,6 +36,8 @@ burin_library(node
           src/visible_values.cpp src/value_scale.cpp src/value_ranges.cpp src/clip_planes.cpp
           src/visible_blocks.cpp src/macrocells.cpp src/dilated_marks.cpp src/chessboard_distance.cpp
           src/step_map.cpp src/brick_texture.cpp src/laplacian_texture.cpp src/brick.cpp src/cost_estimate.cpp
+          src/extinction_means.cpp src/view_rays.cpp src/hiding.cpp src/drawing_cost.cpp
+          src/balanced_tree.cpp
           src/program_uniforms.cpp src/transfer_textures.cpp src/sample_counters.cpp
           src/frame_target.cpp src/layer_images.cpp src/brick_renderer.cpp src/raycaster.cpp
           src/slicer.cpp src/projector.cpp src/group_renderer.cpp src/group_image.cpp src/technique.cpp src/worker.cpp ${embedded}

@@ -74,9 +74,25 @@ void Session::checkCameras() const {
   });
 }
 
+/// Some of the frames' cameras, all along an orbit.
+std::vector<Camera> Session::someViews() const {
+  constexpr int kMost = 8;
+  const int frames = std::max(1, options_.frames);
+  const int count = std::min(frames, kMost);
+  std::vector<Camera> views;
+  for (int i = 0; i < count; ++i) {
+    const auto index = static_cast<int>(std::int64_t{frames} * i / count);
+    views.push_back(resolveCamera(prepared_.scene, prepared_.facts, orbitDeg(index)));
+  }
+  return views;
+}
+
 std::unique_ptr<FrameMaker> Session::makeFrameMaker() {
-  if (!options_.reference)
-    return makeRaycastFrames(comm_, prepared_, options_.worker, options_.merge);
+  if (!options_.reference) {
+    node::WorkerOptions worker = options_.worker;
+    worker.views = someViews();
+    return makeRaycastFrames(comm_, prepared_, worker, options_.merge);
+  }
   return makeReferenceFrames(comm_, prepared_, options_.worker, [this](double share) {
     progress_.show(fmt::format("reference {:.0f} %", 100 * share));
   });

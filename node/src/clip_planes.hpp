@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
@@ -19,6 +20,13 @@ struct CubeGrid {
   glm::ivec3 origin{0};  ///< first cell of the first cube, global index
   glm::ivec3 size{0};    ///< cubes along each axis
   int cubeCells = 1;     ///< cells along each side of a cube
+
+  /// Where a cube's value stands, x fastest.
+  std::size_t index(const glm::ivec3& cube) const {
+    const auto row = static_cast<std::size_t>(cube.z) * static_cast<std::size_t>(size.y) +
+                     static_cast<std::size_t>(cube.y);
+    return row * static_cast<std::size_t>(size.x) + static_cast<std::size_t>(cube.x);
+  }
 };
 
 /// Local. Sets the marks (x fastest) of all cubes to 0 that lie behind a plane as a whole, and so

@@ -6,10 +6,10 @@
 
 namespace burin::node {
 
-CostEstimate::CostEstimate(std::span<const std::uint8_t> marks, const CubeGrid& blocks,
+CostEstimate::CostEstimate(std::span<const float> cellCosts, const CubeGrid& blocks,
                            const VolumeGrid& grid)
     : cells_{grid.cells()}, blocks_{blocks.size}, blockCells_{blocks.cubeCells} {
-  BURIN_CHECK_EQ(marks.size(), (IndexBox{glm::ivec3{0}, blocks_}.count()));
+  BURIN_CHECK_EQ(cellCosts.size(), (IndexBox{glm::ivec3{0}, blocks_}.count()));
   const glm::ivec3 size = blocks_ + 1;
   sums_.assign(IndexBox{glm::ivec3{0}, size}.count(), 0.0);
   const auto at = [&](int x, int y, int z) -> double& {
@@ -24,7 +24,7 @@ CostEstimate::CostEstimate(std::span<const std::uint8_t> marks, const CubeGrid& 
       for (int x = 0; x < blocks_.x; ++x, ++i) {
         const glm::ivec3 block{x, y, z};
         const glm::dvec3 extent = glm::min(cells_ - blockCells_ * block, glm::ivec3{blockCells_});
-        const double cost = extent.x * extent.y * extent.z * (marks[i] != 0 ? 1.0 : kEmptyCost);
+        const double cost = extent.x * extent.y * extent.z * double{cellCosts[i]};
         at(x + 1, y + 1, z + 1) = cost + at(x, y + 1, z + 1) + at(x + 1, y, z + 1) +
                                   at(x + 1, y + 1, z) - at(x, y, z + 1) - at(x, y + 1, z) -
                                   at(x + 1, y, z) + at(x, y, z);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -9,16 +8,12 @@
 
 namespace burin::node {
 
-/// Estimated cost of drawing a box of cells, from what the survey's blocks may show: cells of a
-/// marked block cost 1, others kEmptyCost; spread evenly in a block, so that the estimate is
-/// additive over disjoint boxes.
+/// Estimated cost of drawing a box of cells: the sum of its cells' costs, which are the same for
+/// all cells of one of the survey's blocks, so that the estimate is additive over disjoint boxes.
 class CostEstimate {
  public:
-  /// What an empty cell costs against a visible one: rays leap over it, but not for nothing.
-  static constexpr double kEmptyCost = 0.02;
-
-  /// `marks`: VisibleBlocks::mark().
-  CostEstimate(std::span<const std::uint8_t> marks, const CubeGrid& blocks, const VolumeGrid& grid);
+  /// `cellCosts`: of one cell of each block, finite and >= 0; x fastest.
+  CostEstimate(std::span<const float> cellCosts, const CubeGrid& blocks, const VolumeGrid& grid);
 
   double operator()(const IndexBox& cells) const;
 

@@ -4,6 +4,7 @@
 
 #include "burin/common/error.hpp"
 #include "dilated_marks.hpp"
+#include "extinction_means.hpp"
 
 namespace burin::node {
 
@@ -33,6 +34,15 @@ std::vector<std::uint8_t> VisibleBlocks::mark(const VisibleValues& visible,
   dilateMarks(marks, ranges_.size, visible.reach(blockCells_));
   clearClipped(marks, cubes(), clipPlanes, grid);
   return marks;
+}
+
+std::vector<float> VisibleBlocks::extinction(const Scene& scene, const ValueScale& scale,
+                                             std::span<const std::uint8_t> marks) const {
+  const ExtinctionMeans means{scene, scale};
+  std::vector<float> extinction(marks.size());
+  for (std::size_t i = 0; i < marks.size(); ++i)
+    if (marks[i] != 0) extinction[i] = means(ranges_.lowest[i], ranges_.highest[i]);
+  return extinction;
 }
 
 IndexBox visiblePart(const IndexBox& cells, std::span<const std::uint8_t> marks,

@@ -30,6 +30,11 @@ class VisibleBlocks {
                                  std::span<const glm::vec4> clipPlanes,
                                  const VolumeGrid& grid) const;
 
+  /// Per block the mean extinction over its range of values, per world unit, as if each were as
+  /// frequent as any other; 0 where not marked. `marks`: of mark(), by the same scene.
+  std::vector<float> extinction(const Scene& scene, const ValueScale& scale,
+                                std::span<const std::uint8_t> marks) const;
+
  private:
   ValueRanges ranges_;
   int blockCells_ = 1;

@@ -4,13 +4,14 @@
 #include <optional>
 #include <utility>
 
+#include "balanced_tree.hpp"
 #include "brick.hpp"
 #include "burin/common/error.hpp"
 #include "burin/common/memory_check.hpp"
 #include "burin/common/trace.hpp"
 #include "burin/node/thread_share.hpp"
 #include "clip_planes.hpp"
-#include "cost_estimate.hpp"
+#include "drawing_cost.hpp"
 #include "group_image.hpp"
 #include "group_renderer.hpp"
 #include "visible_blocks.hpp"
@@ -23,7 +24,7 @@ int ghostLayers(const Scene& scene, const WorkerOptions& options) {
 }
 
 /// `withLaplacian`: bricks have a texture of it too.
-BrickTree partition(const Communicator& comm, const CostEstimate& cost, int ghosts,
+BrickTree partition(const Communicator& comm, const DrawingCost& cost, int ghosts,
                     const VolumeInfo& volume, const ValueScale& scale, bool withLaplacian,
                     const WorkerOptions& options) {
   const std::size_t texelBytes = std::max(bytesPerTexel(volume.type, scale.hasInvalid),
@@ -32,27 +33,13 @@ BrickTree partition(const Communicator& comm, const CostEstimate& cost, int ghos
   request.grid = volume.grid;
   request.owners = comm.size() - (options.dedicatedHost ? 1 : 0);
   request.bricks = options.bricks;
-  request.cost = cost;
   request.tooLarge = [&](const IndexBox& cells) {
     const IndexBox stored = storedVoxels(cells, ghosts, volume.grid);
     const glm::ivec3 size = stored.size();
     return std::max({size.x, size.y, size.z}) > kLargestTextureExtent ||
            stored.count() * texelBytes > kLargestTextureBytes;
   };
-  return BrickTree::build(request);
-}
-
-/// Cost of the owner that has most, over the mean of all.
-double unevenness(const BrickTree& tree, const CostEstimate& cost) {
-  double sum = 0;
-  double largest = 0;
-  for (int owner = 0; owner < tree.ownerCount(); ++owner) {
-    double share = 0;
-    for (const BrickId brick : tree.bricksOf(owner)) share += cost(tree.brickCells(brick));
-    sum += share;
-    largest = std::max(largest, share);
-  }
-  return sum > 0 ? largest * tree.ownerCount() / sum : 1;
+  return balancedTree(std::move(request), cost);
 }
 
 /// What this rank's bricks will take; `boxes`: the voxels they store.
@@ -140,9 +127,7 @@ struct Worker::State {
                                        RankStatistics& statistics);
 
   Shown whatShows(const Scene& next) const;
-  CostEstimate costOf(const Shown& what) const {
-    return CostEstimate{what.blocks, blocks.cubes(), grid()};
-  }
+  DrawingCost costOf(const Scene& next, const Shown& what) const;
   IndexBox neededPart(BrickId brick, const Shown& what, int ghostLayers) const;
   bool isSplitBadly(const Scene& next, const Shown& what) const;
   bool isLoaded(const Scene& next, const Shown& what) const;
@@ -162,6 +147,19 @@ Shown Worker::State::whatShows(const Scene& next) const {
   return what;
 }
 
+/// What the split balances. `what`: by that scene; must stay.
+DrawingCost Worker::State::costOf(const Scene& next, const Shown& what) const {
+  DrawnBlocks drawn;
+  drawn.grid = grid();
+  drawn.cubes = blocks.cubes();
+  drawn.marks = what.blocks;
+  drawn.views = options.views;
+  drawn.stepVoxels = next.quality.stepVoxels;
+  if (options.technique == Technique::kRaycast) drawn.termination = next.quality.termination;
+  if (drawn.isHiding()) drawn.extinction = blocks.extinction(next, scale, what.blocks);
+  return DrawingCost{std::move(drawn)};
+}
+
 /// The cells of a brick that a scene can show anything of; not fewer with --skip off, so that both
 /// have the same textures: where a brick's texture ends changes the last bits of its look-ups.
 IndexBox Worker::State::neededPart(BrickId brick, const Shown& what, int ghostLayers) const {
@@ -172,12 +170,13 @@ IndexBox Worker::State::neededPart(BrickId brick, const Shown& what, int ghostLa
 /// Whether loading bricks anew is worth it: the split leaves one owner twice the mean cost of that
 /// scene, and a new one would take a quarter off that. The same answer on every rank.
 bool Worker::State::isSplitBadly(const Scene& next, const Shown& what) const {
-  const CostEstimate cost = costOf(what);
-  const double now = unevenness(tree, cost);
+  if (tree.ownerCount() == 1) return false;
+  const DrawingCost cost = costOf(next, what);
+  const double now = unevenness(tree, cost.with(tree));
   if (now <= 2) return false;
   const BrickTree other = partition(comm, cost, ghostLayers(next, options), source.info(), scale,
                                     laplacianNeeded(next), options);
-  return unevenness(other, cost) < 0.75 * now;
+  return unevenness(other, cost.with(other)) < 0.75 * now;
 }
 
 /// Whether the bricks hold all that a scene needs. The same answer on every rank.
@@ -273,7 +272,7 @@ void Worker::State::loadParts() {
   shown = whatShows(scene);
   ghosts = ghostLayers(scene, options);
   hasLaplacian = laplacianNeeded(scene);
-  tree = partition(comm, costOf(shown), ghosts, volume, scale, hasLaplacian, options);
+  tree = partition(comm, costOf(scene, shown), ghosts, volume, scale, hasLaplacian, options);
   parts.clear();
   for (std::size_t i = 0; i < tree.brickCount(); ++i)
     parts.push_back(neededPart(BrickId{static_cast<std::uint32_t>(i)}, shown, ghosts));

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "drawing_cost.hpp"
 #include "support/mpi_test.hpp"
 #include "support/scenes.hpp"
 #include "visible_blocks.hpp"
@@ -19,11 +20,20 @@ TEST(CostEstimate, CountsVisibleBlocksAndAddsUp) {
   const ValueScale scale = valueScaleOf(VoxelType::kF32, survey);
   const VisibleBlocks blocks{survey, scale};
   const VisibleValues visible{scene, transferTables(scene, scale), scale};
-  const CostEstimate cost{blocks.mark(visible, {}, grid), blocks.cubes(), grid};
+  const std::vector<std::uint8_t> marks = blocks.mark(visible, {}, grid);
+  DrawnBlocks drawn;
+  drawn.grid = grid;
+  drawn.cubes = blocks.cubes();
+  drawn.marks = marks;
+  drawn.stepVoxels = 0.5;
+  const CostEstimate cost = DrawingCost{drawn}.unhidden();
   const glm::ivec3 cells = grid.cells();
-  // Voxel 19 is the last dense one: blocks up to [16,20) show, [20,59) do not.
+  // Voxel 19 is the last dense one: blocks up to [16,20) show, [20,59) do not. Those are leapt
+  // over from half a block before their end, and from as many blocks more as lie between.
   const double section = double{1} * cells.y * cells.z;
-  EXPECT_NEAR(cost({{0, 0, 0}, cells}), section * (20 + 39 * CostEstimate::kEmptyCost), 1e-6);
+  double leaps = 0;
+  for (int block = 0; block < 10; ++block) leaps += (block < 9 ? 4 : 3) * 0.5 / (4 * (block + 0.5));
+  EXPECT_NEAR(cost({{0, 0, 0}, cells}), section * (20 + leaps), 1e-5 * section);
   EXPECT_NEAR(cost({{0, 0, 0}, {8, cells.y, cells.z}}), section * 8, 1e-6);
   // Additive over any cut.
   for (const int x : {1, 17, 33, 58})

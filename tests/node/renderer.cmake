@@ -28,6 +28,7 @@ burin_add_renderer_test(visible_blocks_test RANKS 1)
 burin_add_renderer_test(brick_parts_test RANKS 1 TIMEOUT 300)
 burin_add_renderer_test(transfer_table_test RANKS 1)
 burin_add_renderer_test(cost_estimate_test RANKS 1 3)
+burin_add_renderer_test(balanced_tree_test RANKS 1)
 burin_add_renderer_test(gl_backends_test RANKS 1 TIMEOUT 300)
 
 # One scene on 13 ranks: an odd count far above the cores.

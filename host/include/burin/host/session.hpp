@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "burin/common/communicator.hpp"
 #include "burin/common/statistics.hpp"
@@ -28,6 +29,7 @@ class Session {
 
  private:
   double orbitDeg(int index) const;
+  std::vector<Camera> someViews() const;
   void checkTechnique() const;
   void checkCameras() const;
   std::unique_ptr<FrameMaker> makeFrameMaker();

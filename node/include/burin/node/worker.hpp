@@ -33,6 +33,9 @@ struct WorkerOptions {
   Technique technique = Technique::kRaycast;
   Precision precision = Precision::kFloat;  ///< kRaycast: must be kFloat
   GlBackend gl = GlBackend::kOsMesa;
+  /// Views for which the bricks are to be balanced (the same on all ranks); others can be drawn as
+  /// well. Empty: for none in particular.
+  std::vector<Camera> views = {};
   /// Overrides what the scene's styles declare: tests show with it that the declaration is needed.
   std::optional<int> ghostLayers = std::nullopt;
 };
