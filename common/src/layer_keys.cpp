@@ -4,6 +4,7 @@
 #include <array>
 #include <limits>
 
+#include "burin/common/labels.hpp"
 #include "transfer_function_file.hpp"
 #include "widget_keys.hpp"
 
@@ -120,7 +121,17 @@ void checkTwoDimensional(const At& at, const Layer& layer) {
     at.fail("'line_opacity' is by value alone: beside 'widgets' lines have the opacity of these");
 }
 
+/// Labels say where there is a medium.
+void checkLabels(const At& at, const Layer& layer) {
+  if (layer.mode != LayerMode::kDvr)
+    at.fail("'labels' bind a medium: expected \"mode\": \"dvr\", found \"{}\"",
+            burin::name(layer.mode));
+  if (layer.style("halo") != nullptr)
+    at.fail("'halo' lies around a medium, where 'labels' have none: expected one of the two");
+}
+
 void checkLayer(const At& at, const Layer& layer) {
+  if (!layer.labels.empty()) checkLabels(at, layer);
   if (layer.transferFunction.isTwoDimensional()) checkTwoDimensional(at, layer);
   if (isProjection(layer.mode)) checkProjection(at, layer);
   const bool isSurface = layer.mode == LayerMode::kIso;
@@ -134,6 +145,24 @@ void checkLayer(const At& at, const Layer& layer) {
                  fmt::format("a layer of mode \"{}\" is no surface; expected \"mode\": \"iso\"",
                              burin::name(layer.mode)));
   }
+}
+
+constexpr std::size_t kMostLabels = 4096;
+
+/// A label's number or name.
+Codec<LabelName> labelNameCodec() {
+  const Codec<int> number = wholeNumber({.minimum = -kLargestLabel, .maximum = kLargestLabel});
+  const Codec<std::string> name = text();
+  return {[number, name](const At& at) {
+            if (at.node.kind == Node::Kind::kText) return LabelName{name.read(at)};
+            return LabelName{number.read(at)};
+          },
+          [number, name](const LabelName& label) {
+            const int* value = std::get_if<int>(&label);
+            return value != nullptr ? number.write(*value)
+                                    : name.write(std::get<std::string>(label));
+          },
+          Document{{"anyOf", {number.schema, name.schema}}}};
 }
 
 }  // namespace
@@ -193,6 +222,13 @@ Codec<Layer> layerCodec() {
              return l.lineOpacity.empty() ? std::nullopt : std::optional{l.lineOpacity};
            },
            [](L& l, std::vector<OpacityPoint> points) { l.lineOpacity = std::move(points); }),
+       field<L, std::vector<LabelName>>(
+           "labels",
+           "The layer is only where the label volume has one of these numbers or names; default "
+           "everywhere",
+           list(labelNameCodec(), 1, kMostLabels),
+           [](const L& l) { return l.labels.empty() ? std::nullopt : std::optional{l.labels}; },
+           [](L& l, std::vector<LabelName> labels) { l.labels = std::move(labels); }),
        field("style",
              "Effects on this layer, an empty entry with its defaults; or the name of "
              "a style",

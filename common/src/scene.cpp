@@ -61,9 +61,25 @@ bool needsGradient(const Layer& layer) {
   });
 }
 
-/// A segment belongs to the brick of its middle; its ends are half a segment away from there. Along
-/// no axis that is more voxels than along the ray, where a voxel is at least the smallest spacing.
+/// The line opacities of a layer, which has some.
+TransferFunction lineFunction(const Layer& layer) {
+  TransferFunction lines{{}, layer.transferFunction.opacityUnitLength};
+  for (const OpacityPoint& point : layer.lineOpacity)
+    lines.points.push_back({point.value, Colour{}, point.opacity});
+  return lines;
+}
+
+/// A segment belongs to the brick of its middle, and its ends are looked up.
 int segmentGhostLayers(const Scene& scene) {
+  constexpr double kMost = 4096;  // more than any texture holds; loading stops at the volume
+  return static_cast<int>(std::min(std::ceil(segmentReachVoxels(scene)), kMost));
+}
+
+}  // namespace
+
+/// The ends are half a segment away from the middle. Along no axis that is more voxels than along
+/// the ray, where a voxel is at least the smallest spacing.
+double segmentReachVoxels(const Scene& scene) {
   if (!scene.quality.preintegrated && !hasSurfaces(scene)) return 0;
   const CameraChoice& camera = scene.camera;
   double slope = 0;  // of the ray through a corner of the picture
@@ -73,20 +89,13 @@ int segmentGhostLayers(const Scene& scene) {
     if (!camera.eye) slope = std::min(slope, 1.0);  // rays beyond the bounding sphere meet nothing
     slope *= std::tan(glm::radians(camera.verticalFovDeg) / 2);
   }
-  constexpr double kMost = 4096;  // more than any texture holds; loading stops at the volume
-  return static_cast<int>(
-      std::min(std::ceil(0.5 * scene.quality.stepVoxels * std::hypot(1.0, slope)), kMost));
+  return 0.5 * scene.quality.stepVoxels * std::hypot(1.0, slope);
 }
 
-/// The line opacities of a layer, which has some.
-TransferFunction lineFunction(const Layer& layer) {
-  TransferFunction lines{{}, layer.transferFunction.opacityUnitLength};
-  for (const OpacityPoint& point : layer.lineOpacity)
-    lines.points.push_back({point.value, Colour{}, point.opacity});
-  return lines;
+bool labelsNeeded(const Scene& scene) {
+  return std::any_of(scene.layers.begin(), scene.layers.end(),
+                     [](const Layer& layer) { return !layer.labels.empty(); });
 }
-
-}  // namespace
 
 const StyleSettings* Layer::style(std::string_view styleName) const {
   const auto found = std::find_if(styles.begin(), styles.end(),

@@ -27,12 +27,16 @@ std::string writeScene(const Scene& scene) {
   return json::format(scene_io::sceneCodec().write(scene));
 }
 
+void setSceneFolder(Scene& scene, const std::filesystem::path& folder) {
+  for (std::string* name : {&scene.volume.file, &scene.labels.file, &scene.labels.names}) {
+    // An absolute name replaces the folder altogether.
+    if (!name->empty()) *name = (folder / *name).lexically_normal().string();
+  }
+}
+
 Scene loadScene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
   Scene scene = parseScene(readSmallFile(file, "the scene"), file.string(), overrides);
-  if (!scene.volume.file.empty()) {
-    // An absolute volume.file replaces the folder altogether.
-    scene.volume.file = (file.parent_path() / scene.volume.file).lexically_normal().string();
-  }
+  setSceneFolder(scene, file.parent_path());
   return scene;
 }
 

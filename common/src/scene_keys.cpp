@@ -18,6 +18,7 @@ void forbid(const At& at, std::string_view key, std::string_view why) {
   }
 }
 
+/// Of the volume, or of the label volume beside it.
 void checkVolume(const At& at, const VolumeChoice& volume) {
   if (volume.file.empty() == volume.procedural.empty()) {
     at.fail("expected exactly one of 'file' and 'procedural'");
@@ -30,8 +31,9 @@ void checkVolume(const At& at, const VolumeChoice& volume) {
   }
 }
 
-Codec<VolumeChoice> volumeCodec() {
-  using V = VolumeChoice;
+/// V: VolumeChoice, or what has more members.
+template <typename V>
+Fields<V> volumeFields() {
   const auto unlessEmpty = [](std::string V::*member) {
     return [member](const V& v) {
       return (v.*member).empty() ? std::nullopt : std::optional{v.*member};
@@ -40,25 +42,52 @@ Codec<VolumeChoice> volumeCodec() {
   const auto keep = [](std::string V::*member) {
     return [member](V& v, std::string value) { v.*member = std::move(value); };
   };
-  return object<V>(
-      {field<V, std::string>("file", "Volume file, relative to this file", text(),
-                             unlessEmpty(&V::file), keep(&V::file)),
-       field<V, std::string>("procedural",
-                             "Built-in volume instead of a file: marschner-lobb, shells, "
-                             "homogeneous, ramp, vessels or ct-phantom",
-                             text(), unlessEmpty(&V::procedural), keep(&V::procedural)),
-       field("dims", "Voxels along x, y and z: of a built-in volume, or of a bare raw file",
-             &V::dims, wholeNumbers3({.minimum = 1, .maximum = 1e6})),
-       field("type", "Voxel type: of a built-in volume, or of a bare raw file", &V::type,
-             word({"u8", "i8", "u16", "i16", "u32", "i32", "u64", "i64", "f32", "f64"})),
-       field("endian", "Byte order of a bare raw file", &V::endian, word({"little", "big"})),
-       field("spacing", "Distance of voxels along x, y and z, of a built-in volume or a raw file",
-             &V::spacing, vector3(kPositive)),
-       field("component", "Which component of voxels that have several; 0 is the first",
-             &V::component, wholeNumber({.minimum = 0, .maximum = 1e6})),
-       field("series", "Which series of a DICOM folder: its UID, or its number in the list",
-             &V::series, text())},
-      checkVolume);
+  return {field<V, std::string>("file", "Volume file, relative to this file", text(),
+                                unlessEmpty(&V::file), keep(&V::file)),
+          field<V, std::string>("procedural",
+                                "Built-in volume instead of a file: marschner-lobb, shells, "
+                                "homogeneous, ramp, vessels, ct-phantom or ct-phantom-labels",
+                                text(), unlessEmpty(&V::procedural), keep(&V::procedural)),
+          field<V, glm::ivec3>(
+              "dims", "Voxels along x, y and z: of a built-in volume, or of a bare raw file",
+              &V::dims, wholeNumbers3({.minimum = 1, .maximum = 1e6})),
+          field<V, std::string>(
+              "type", "Voxel type: of a built-in volume, or of a bare raw file", &V::type,
+              word({"u8", "i8", "u16", "i16", "u32", "i32", "u64", "i64", "f32", "f64"})),
+          field<V, std::string>("endian", "Byte order of a bare raw file", &V::endian,
+                                word({"little", "big"})),
+          field<V, glm::dvec3>(
+              "spacing", "Distance of voxels along x, y and z, of a built-in volume or a raw file",
+              &V::spacing, vector3(kPositive)),
+          field<V, int>("component", "Which component of voxels that have several; 0 is the first",
+                        &V::component, wholeNumber({.minimum = 0, .maximum = 1e6})),
+          field<V, std::string>(
+              "series", "Which series of a DICOM folder: its UID, or its number in the list",
+              &V::series, text())};
+}
+
+Codec<VolumeChoice> volumeCodec() {
+  return object<VolumeChoice>(volumeFields<VolumeChoice>(), checkVolume);
+}
+
+/// An object as "volume" is, with the names; or the file alone.
+Codec<LabelVolumeChoice> labelVolumeCodec() {
+  using V = LabelVolumeChoice;
+  Fields<V> fields = volumeFields<V>();
+  fields.push_back(field<V, std::string>(
+      "names", "File of ITK-SNAP's label descriptions, relative to this file", text(),
+      [](const V& v) { return v.names.empty() ? std::nullopt : std::optional{v.names}; },
+      [](V& v, std::string value) { v.names = std::move(value); }));
+  Codec<V> codec = object<V>(std::move(fields), checkVolume);
+  codec.read = [read = std::move(codec.read)](const At& at) {
+    if (at.node.kind != Node::Kind::kText) return read(at);
+    V choice;
+    choice.file = at.node.text;
+    if (choice.file.empty()) at.fail("expected the name of a file");
+    return choice;
+  };
+  codec.schema = Document{{"anyOf", {text().schema, std::move(codec.schema)}}};
+  return codec;
 }
 
 Codec<Light> lightCodec() {
@@ -263,6 +292,11 @@ Codec<Scene> makeSceneCodec() {
              return none ? std::nullopt : std::optional{s.volume};
            },
            [](S& s, VolumeChoice value) { s.volume = std::move(value); }),
+       field<S, LabelVolumeChoice>(
+           "labels", "A segmentation on the volume's grid, which layers can be bound to; a file",
+           labelVolumeCodec(),
+           [](const S& s) { return s.labels.isGiven() ? std::optional{s.labels} : std::nullopt; },
+           [](S& s, LabelVolumeChoice value) { s.labels = std::move(value); }),
        field("camera", "Orbit angles or a named view of the whole volume, or eye, target and up",
              &S::camera, cameraCodec()),
        field<S, ImageChoice>(

@@ -14,6 +14,7 @@ class Maker {
   Scene scene() {
     Scene s;
     if (chance()) s.volume = volume();
+    if (chance()) s.labels = {volume(), chance() ? text() : ""};
     s.camera = camera();
     s.imageSize = {whole(1, 16384), whole(1, 16384)};
     s.background = chance() ? std::optional{colour()} : std::nullopt;
@@ -149,8 +150,11 @@ class Maker {
     if (!made.transferFunction.isTwoDimensional())
       made.mode =
           pick<LayerMode>({LayerMode::kDvr, LayerMode::kIso, LayerMode::kMip, LayerMode::kAverage});
-    const bool mayHaveHalos =
-        made.mode == LayerMode::kDvr && !made.transferFunction.isTwoDimensional();
+    if (made.mode == LayerMode::kDvr && chance())
+      for (int i = whole(0, 3); i >= 0; --i)
+        made.labels.push_back(chance() ? LabelName{whole(-70000, 70000)} : LabelName{text()});
+    const bool mayHaveHalos = made.mode == LayerMode::kDvr && made.labels.empty() &&
+                              !made.transferFunction.isTwoDimensional();
     for (const StyleSpec& spec : styleTable()) {
       if (spec.name == "halo" && !mayHaveHalos) continue;
       if (chance()) made.styles.push_back(settings(spec));

@@ -41,8 +41,8 @@ TEST(SceneError, PlaceIsRightAfterEveryKindOfToken) {
     "volume": {"file": "a\"//\\\u00e9/*", "dims":[1,2,3]},
     "clip": [{"plane":[-1.5e+0,0,0E1,2]},{"plane":[0,1,0,0]}/**/],)";
   EXPECT_EQ(complaint(before + "\n  \"here\": true }"),
-            "s.json:4:3: here: unknown key; expected one of 'schema_version', 'volume', 'camera', "
-            "'image', 'lights', 'layers', 'clip', 'quality', 'annotations'");
+            "s.json:4:3: here: unknown key; expected one of 'schema_version', 'volume', 'labels', "
+            "'camera', 'image', 'lights', 'layers', 'clip', 'quality', 'annotations'");
 }
 
 TEST(SceneError, Syntax) {

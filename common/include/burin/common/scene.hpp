@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "burin/common/annotations.hpp"
@@ -45,6 +46,17 @@ struct VolumeChoice {
   friend bool operator==(const VolumeChoice&, const VolumeChoice&) = default;
 };
 
+/// A segmentation of the volume, on the same grid. A scene without one has neither file nor
+/// procedural.
+struct LabelVolumeChoice : VolumeChoice {
+  std::string names;  ///< file of ITK-SNAP's label descriptions, as written; "": none
+  bool isGiven() const { return !file.empty() || !procedural.empty(); }
+  friend bool operator==(const LabelVolumeChoice&, const LabelVolumeChoice&) = default;
+};
+
+/// A label's number, or its name until resolveLabels() has found the number.
+using LabelName = std::variant<int, std::string>;
+
 /// As written in the scene: either orbit angles (or a named view), or eye / target / up.
 struct CameraChoice {
   double azimuthDeg = 30;
@@ -80,6 +92,8 @@ struct Layer {
   /// Pass II's own opacity by value, as the transfer function's; none: the transfer function's.
   std::vector<OpacityPoint> lineOpacity = {};
   std::vector<StyleSettings> styles;  ///< in the order of styleTable(), each at most once
+  /// The layer is only where the label volume has one of these; none: it is everywhere.
+  std::vector<LabelName> labels = {};
   LayerMode mode = LayerMode::kDvr;
   std::optional<double> isoValue = std::nullopt;  ///< data units; set in mode kIso, and there alone
   /// Of the surface wherever a ray meets it; its colour is the transfer function's at isoValue.
@@ -145,6 +159,7 @@ struct Quality {
 
 struct Scene {
   VolumeChoice volume;
+  LabelVolumeChoice labels;
   CameraChoice camera;
   ImageSize imageSize{1024, 1024};
   std::optional<Colour> background = Colour{255, 255, 255};  ///< unset: transparent
@@ -170,7 +185,11 @@ Scene parseScene(std::string_view text, std::string_view name,
 /// are written with all their parameters, so the text means the same wherever it is read.
 std::string writeScene(const Scene& scene);
 
-/// Reads a scene file; a relative volume.file is made relative to the file's folder.
+/// Makes the relative names of files in a scene, which are relative to `folder`, relative to where
+/// that folder is seen from; absolute ones stay.
+void setSceneFolder(Scene& scene, const std::filesystem::path& folder);
+
+/// Reads a scene file; relative names of files are made relative to the file's folder.
 Scene loadScene(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
 
 /// Facts of the volume that a scene refers to.
@@ -204,6 +223,11 @@ bool hasWidgets(const Scene& scene);
 /// Largest ghost width that any layer's styles declare, two-dimensional transfer functions take or
 /// that the ends of pre-integrated segments need; 0 if nothing looks beyond a brick's own cells.
 int ghostLayersNeeded(const Scene& scene);
+/// Voxels from a segment's middle to its ends, at most, along any axis: 0 if only the middle
+/// counts.
+double segmentReachVoxels(const Scene& scene);
+/// Whether any layer is bound to labels.
+bool labelsNeeded(const Scene& scene);
 /// What a scene looks up by value along a ray: the transfer function of each layer that is a
 /// medium (the envelope of a two-dimensional one), followed by that of its lines (black) if it has
 /// line opacities.
