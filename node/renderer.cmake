@@ -14,7 +14,7 @@ target_include_directories(burin_gl_loader PUBLIC $<BUILD_INTERFACE:${glad_dir}/
 set(shader_files
   fullscreen.vert lattice.glsl ownership.glsl opacity.glsl volume.glsl neighbourhood.glsl
   direction_palette.glsl voxels.glsl palettes.glsl halo.glsl
-  skip.glsl preintegration.glsl widgets.glsl sides.glsl shading.glsl caps.glsl position.glsl laplacian.glsl adaptive.glsl
+  skip.glsl preintegration.glsl widgets.glsl sides.glsl shading.glsl caps.glsl position.glsl laplacian.glsl labels.glsl adaptive.glsl
   cells.glsl halving.glsl exact.glsl surfaces.glsl surface_march.glsl projection.glsl raycast.glsl slice.glsl resolve.glsl
   styles/surface.glsl styles/boundary.glsl styles/silhouette.glsl styles/fade.glsl styles/light.glsl
   styles/tone.glsl styles/toon.glsl styles/depth.glsl styles/laplacian.glsl styles/halo.glsl styles/edges.glsl
@@ -35,7 +35,8 @@ burin_library(node
            src/transfer_integral.cpp src/transfer_table.cpp
           src/visible_values.cpp src/value_scale.cpp src/value_ranges.cpp src/clip_planes.cpp
           src/visible_blocks.cpp src/macrocells.cpp src/dilated_marks.cpp src/chessboard_distance.cpp
-          src/step_map.cpp src/brick_texture.cpp src/laplacian_texture.cpp src/brick.cpp src/cost_estimate.cpp
+          src/step_map.cpp src/brick_texture.cpp src/laplacian_texture.cpp src/label_masks.cpp src/label_texture.cpp
+          src/visible_group.cpp src/brick.cpp src/cost_estimate.cpp
           src/extinction_means.cpp src/view_rays.cpp src/hiding.cpp src/drawing_cost.cpp
           src/balanced_tree.cpp
           src/program_uniforms.cpp src/transfer_textures.cpp src/sample_counters.cpp

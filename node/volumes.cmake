@@ -9,7 +9,7 @@ burin_library(stored
 
 # Brick sources (files and procedural volumes), the volume writer, the survey.
 burin_library(volumes
-  SOURCES src/open_volume.cpp src/nrrd_reader.cpp src/nifti_reader.cpp src/metaimage_reader.cpp
+  SOURCES src/open_volume.cpp src/nrrd_reader.cpp src/slicer_segments.cpp src/nifti_reader.cpp src/metaimage_reader.cpp
           src/module_formats.cpp src/module_function.cpp src/hdf5_name.cpp src/dicom_folder.cpp
           src/vtk_reader.cpp src/vti_reader.cpp src/vti_header.cpp src/base64_stream.cpp
           src/zlib_block_stream.cpp src/picture_reader.cpp src/picture_files.cpp
@@ -19,6 +19,7 @@ burin_library(volumes
           src/slab_reading.cpp src/slab_scatter.cpp
           src/survey.cpp src/range_survey.cpp src/gradient_survey.cpp src/operator_weights.cpp
           src/smoothed_laplacian.cpp src/laplacian_survey.cpp
+          src/label_voxels.cpp src/label_volume.cpp
   PUBLIC burin::stored burin::scene burin::mpi
   PRIVATE Teem::teem NIFTI::nifti2 EXPAT::EXPAT ZLIB::ZLIB ${CMAKE_DL_LIBS})
 burin_unity(burin_stored)

@@ -23,7 +23,7 @@ struct Wanted {
   VolumeChoice choice;
 };
 
-/// The files, or all procedural kinds but the one without any detail.
+/// The files, or all procedural kinds but the one without any detail and segmentations.
 std::vector<Wanted> volumesOf(const BenchMaxErrorOptions& options) {
   std::vector<Wanted> volumes;
   for (const std::string& file : options.volumes) {
@@ -33,7 +33,7 @@ std::vector<Wanted> volumesOf(const BenchMaxErrorOptions& options) {
   }
   if (!volumes.empty()) return volumes;
   for (const node::ProceduralKind& kind : node::proceduralKinds()) {
-    if (kind.name == "homogeneous") continue;
+    if (kind.name == "homogeneous" || kind.isLabels) continue;
     Wanted& wanted = volumes.emplace_back();
     wanted.name = kind.name;
     wanted.choice.procedural = kind.name;

@@ -22,6 +22,9 @@ const uint kUnits = 512u;
 vec4 partColour(vec3 coordinate, Side from, Side to, vec3 toEye, float world) {
   vec3 colour;
   float extinction;
+#ifdef LABELS
+  lookUpLabels(coordinate);
+#endif
   if (from.valid * to.valid == 0.0 || !classify(from, to)) return vec4(0.0);
   shade(coordinate, from, to, toEye, colour, extinction);
   float opacity = opacityOf(extinction * world);

@@ -58,6 +58,9 @@ void main() {
     float begin = segmentBegin(ray, j);
     float end = segmentEnd(ray, j);
     vec3 coordinate = coordinateOrigin + 0.5 * (begin + end) * coordinateAlong;
+#ifdef LABELS
+    lookUpLabels(coordinate);
+#endif
 #ifdef PREINTEGRATED
     begun = begun && j == before;
     Side back = sideAt(coordinateOrigin + (begun ? end : begin) * coordinateAlong);

@@ -33,6 +33,9 @@ void main() {
   float begin = segmentBegin(ray, slice);
   float end = segmentEnd(ray, slice);
   vec3 coordinate = coordinateOrigin + 0.5 * (begin + end) * coordinateAlong;
+#ifdef LABELS
+  lookUpLabels(coordinate);
+#endif
 #ifdef PREINTEGRATED
   Side front = sideAt(coordinateOrigin + begin * coordinateAlong);
   Side back = sideAt(coordinateOrigin + end * coordinateAlong);

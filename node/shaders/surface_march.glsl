@@ -66,6 +66,9 @@ void main() {
     float partEnd = task == kEnd ? end : begin + at * (end - begin);
     vec3 place = coordinateOrigin + (begun ? partEnd : begin) * coordinateAlong;
     vec3 coordinate = coordinateOrigin + 0.5 * (partBegin + partEnd) * coordinateAlong;
+#ifdef LABELS
+    lookUpLabels(coordinate);
+#endif
 #ifdef PREINTEGRATED
     Side back = sideAt(place);
     vec2 look = vec2(back.value, back.valid);

@@ -35,10 +35,31 @@ void Brick::upload(const IndexBox& box, std::span<const std::byte> voxels, Stagi
   if (laplacian_) laplacian_->add(staging.values);
 }
 
-void Brick::classify(const VisibleValues& visible, std::span<const glm::vec4> clipPlanes) {
-  std::vector<std::uint8_t> marks =
-      macrocells_.mark([&](float lowest, float highest) { return visible.any(lowest, highest); });
-  dilateMarks(marks, macrocells_.size(), visible.reach(kMacrocellSize));
+void Brick::makeLabels(std::size_t masks, int reach) {
+  labels_.reset();
+  labels_.emplace(texture_.storedVoxels(), macrocells_.cubes(), masks, reach);
+}
+
+void Brick::uploadLabels(const IndexBox& box, std::span<const MaskBits> masks) {
+  labels_->upload(box, masks);
+}
+
+/// The macrocells in which some group shows something.
+std::vector<std::uint8_t> Brick::marksOf(std::span<const VisibleGroup> groups) const {
+  std::vector<std::uint8_t> marks(IndexBox{glm::ivec3{0}, macrocells_.size()}.count());
+  for (const VisibleGroup& group : groups) {
+    std::vector<std::uint8_t> part = macrocells_.mark(
+        [&](float lowest, float highest) { return group.values.any(lowest, highest); });
+    dilateMarks(part, macrocells_.size(), group.values.reach(kMacrocellSize));
+    for (std::size_t i = 0; i < marks.size(); ++i)
+      if (part[i] != 0 && (!group.mask || (labels_->occurring()[i] >> *group.mask & 1) != 0))
+        marks[i] = 1;
+  }
+  return marks;
+}
+
+void Brick::classify(std::span<const VisibleGroup> groups, std::span<const glm::vec4> clipPlanes) {
+  std::vector<std::uint8_t> marks = marksOf(groups);
   clearClipped(marks, macrocells_.cubes(), clipPlanes, grid_);
   const IndexBox marked = macrocells_.boxOf(marks);
   visibleCells_ = marked.empty()
@@ -54,7 +75,8 @@ void Brick::classify(const VisibleValues& visible, std::span<const glm::vec4> cl
 
 std::size_t Brick::residentBytes() const {
   const glm::ivec3 size = macrocells_.size();
-  return texture_.bytes() + (laplacian_ ? laplacian_->bytes() : 0) + macrocells_.bytes() +
+  return texture_.bytes() + (laplacian_ ? laplacian_->bytes() : 0) +
+         (labels_ ? labels_->bytes() : 0) + macrocells_.bytes() +
          IndexBox{glm::ivec3{0}, size}.count();
 }
 

@@ -5,9 +5,10 @@
 
 #include "brick_texture.hpp"
 #include "burin/common/brick_tree.hpp"
+#include "label_texture.hpp"
 #include "laplacian_texture.hpp"
 #include "macrocells.hpp"
-#include "visible_values.hpp"
+#include "visible_group.hpp"
 
 namespace burin::node {
 
@@ -26,9 +27,14 @@ class Brick {
   /// After the last upload.
   void finishLoading() { macrocells_.finish(); }
 
+  /// Room for so many masks of labels, in place of those before. `reach`: as of SetsOfCubes.
+  void makeLabels(std::size_t masks, int reach);
+  /// The masks of stored voxels, as upload().
+  void uploadLabels(const IndexBox& box, std::span<const MaskBits> masks);
+
   /// Distance map and visible cells for what the scene shows now. `clipPlanes`: as of
   /// centredClipPlanes().
-  void classify(const VisibleValues& visible, std::span<const glm::vec4> clipPlanes);
+  void classify(std::span<const VisibleGroup> groups, std::span<const glm::vec4> clipPlanes);
 
   BrickId id() const { return id_; }
   const IndexBox& cells() const { return cells_; }
@@ -37,6 +43,7 @@ class Brick {
   GLuint distanceTexture() const { return distances_.id(); }
   /// 0 if there is none.
   GLuint laplacianTexture() const { return laplacian_ ? laplacian_->id() : 0; }
+  GLuint labelTexture() const { return labels_ ? labels_->id() : 0; }
   /// First voxel of the distance map, global index.
   glm::ivec3 mapOrigin() const { return macrocells_.origin(); }
   /// Own cells in which segments may show something; empty if the brick shows nothing. A segment
@@ -45,12 +52,15 @@ class Brick {
   std::size_t residentBytes() const;
 
  private:
+  std::vector<std::uint8_t> marksOf(std::span<const VisibleGroup> groups) const;
+
   BrickId id_;
   VolumeGrid grid_;
   IndexBox cells_;
   int ghostLayers_;
   BrickTexture texture_;
   std::optional<LaplacianTexture> laplacian_;
+  std::optional<LabelTexture> labels_;
   Macrocells macrocells_;
   Texture distances_;
   IndexBox visibleCells_;

@@ -11,6 +11,7 @@
 #include "burin/common/statistics.hpp"
 #include "burin/compositor/subimage.hpp"
 #include "burin/node/step_map.hpp"
+#include "label_masks.hpp"
 
 namespace burin::node {
 
@@ -30,8 +31,9 @@ class BrickRenderer {
   virtual ~BrickRenderer() = default;
 
   /// Draws this scene from now on (same volume). Programs are kept: going back to a set of styles
-  /// compiles nothing. If it throws, the scene before stays.
-  virtual void setScene(const Scene& scene) = 0;
+  /// compiles nothing. If it throws, the scene before stays. `masks`: those of the bricks, in which
+  /// there may be other layers' as well.
+  virtual void setScene(const Scene& scene, const LabelMasks& masks) = 0;
 
   /// What the scene's transfer functions take.
   virtual std::size_t tableBytes() const = 0;

@@ -130,25 +130,34 @@ void addFace(double& value, const glm::dvec3& p, const glm::dvec3& m, double dep
 
 constexpr Ellipsoid kBrainCase{{0.5, 0.615, 0.47}, {0.272, 0.298, 0.350}};
 
-/// What lies inside the brain case.
-void addBrain(double& value, const glm::dvec3& p, const glm::dvec3& m) {
-  const Ellipsoid inner{kBrainCase.centre, {0.245, 0.270, 0.322}};
-  const Ellipsoid brain{kBrainCase.centre, {0.236, 0.260, 0.312}};
-  const double inCase = inside(inner.distance(p));
-  if (inCase == 0) return;
-  fill(value, kFluid, inCase);
-  // Folds of the surface and the cleft between the halves, as gentle waves of the distance.
+constexpr Ellipsoid kInnerCase{kBrainCase.centre, {0.245, 0.270, 0.322}};
+constexpr Ellipsoid kSmoothBrain{kBrainCase.centre, {0.236, 0.260, 0.312}};
+constexpr Ellipsoid kLesionShape{{0.37, 0.70, 0.55}, {0.045, 0.040, 0.045}};
+
+/// Distance outside the brain: folds of the surface and the cleft between the halves are gentle
+/// waves of the distance.
+double brainDistance(const glm::dvec3& p) {
   const glm::dvec3 wave = glm::sin(p * glm::dvec3{58, 50, 54});
   const double cleft =
       0.020 * std::exp(-(p.x - 0.5) * (p.x - 0.5) * 4000) * smoothRamp(0.60, 0.75, p.y);
   const double folds = 0.007 * wave.x * wave.y * wave.z + 0.007 * std::abs(wave.x * wave.y);
-  fill(value, kBrain, inside(brain.distance(p) + folds + cleft));
-  const double horn =
-      blend(capsuleDistance(m, {0.535, 0.66, 0.58}, {0.545, 0.68, 0.42}, 0.022),
-            capsuleDistance(m, {0.545, 0.68, 0.42}, {0.60, 0.58, 0.38}, 0.018), 0.02);
-  fill(value, kFluid, inside(horn));
-  const Ellipsoid lesion{{0.37, 0.70, 0.55}, {0.045, 0.040, 0.045}};
-  fill(value, kLesion, inside(lesion.distance(p)));
+  return kSmoothBrain.distance(p) + folds + cleft;
+}
+
+/// Distance outside the ventricles.
+double hornDistance(const glm::dvec3& m) {
+  return blend(capsuleDistance(m, {0.535, 0.66, 0.58}, {0.545, 0.68, 0.42}, 0.022),
+               capsuleDistance(m, {0.545, 0.68, 0.42}, {0.60, 0.58, 0.38}, 0.018), 0.02);
+}
+
+/// What lies inside the brain case.
+void addBrain(double& value, const glm::dvec3& p, const glm::dvec3& m) {
+  const double inCase = inside(kInnerCase.distance(p));
+  if (inCase == 0) return;
+  fill(value, kFluid, inCase);
+  fill(value, kBrain, inside(brainDistance(p)));
+  fill(value, kFluid, inside(hornDistance(m)));
+  fill(value, kLesion, inside(kLesionShape.distance(p)));
 }
 
 /// What lies outside the brain case: air, skin, fat, muscle, the face.
@@ -176,6 +185,21 @@ double ctPhantomHounsfield(const glm::dvec3& p) {
     addBrain(value, p, m);
   }
   return value;
+}
+
+int ctPhantomLabel(const glm::dvec3& p) {
+  const glm::dvec3 m = mirrored(p);
+  if (kInnerCase.distance(p) < 0) {
+    if (kLesionShape.distance(p) < 0) return 5;
+    if (hornDistance(m) < 0) return 4;
+    return brainDistance(p) < 0 ? 3 : 0;
+  }
+  if (kBrainCase.distance(p) < 0) return 2;
+  if (kEye.distance(m) < 0) return 6;
+  // Else by what the tissue looks like: bone is what is denser than anything soft.
+  const double value = ctPhantomHounsfield(p);
+  if (value < -500) return 0;
+  return value > 400 ? 2 : 1;
 }
 
 }  // namespace burin::node

@@ -9,4 +9,8 @@ namespace burin::node {
 /// lesion. p in the unit cube: +y up, +z to the front, +x to the head's left.
 double ctPhantomHounsfield(const glm::dvec3& p);
 
+/// The phantom's segmentation: 0 nothing, 1 soft tissue, 2 bone and teeth, 3 brain, 4 ventricles,
+/// 5 lesion, 6 eyes.
+int ctPhantomLabel(const glm::dvec3& p);
+
 }  // namespace burin::node

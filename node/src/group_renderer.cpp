@@ -6,7 +6,7 @@
 
 namespace burin::node {
 
-void GroupRenderer::setScene(const Scene& group) {
+void GroupRenderer::setScene(const Scene& group, const LabelMasks& masks) {
   if (isProjection(group.layers.front().mode)) {
     if (projector_)
       projector_->setScene(group);
@@ -16,11 +16,11 @@ void GroupRenderer::setScene(const Scene& group) {
     return;
   }
   if (media_)
-    media_->setScene(group);
+    media_->setScene(group, masks);
   else if (options_.technique == Technique::kSlices)
-    media_ = std::make_unique<Slicer>(group, volume_, options_.draw, options_.precision);
+    media_ = std::make_unique<Slicer>(group, masks, volume_, options_.draw, options_.precision);
   else
-    media_ = std::make_unique<Raycaster>(group, volume_, options_.draw);
+    media_ = std::make_unique<Raycaster>(group, masks, volume_, options_.draw);
   projector_.reset();
 }
 

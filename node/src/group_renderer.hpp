@@ -19,14 +19,15 @@ class GroupRenderer {
     Precision precision = Precision::kFloat;
   };
 
-  GroupRenderer(const Scene& group, const ProgramVolume& volume, const Options& options)
+  GroupRenderer(const Scene& group, const LabelMasks& masks, const ProgramVolume& volume,
+                const Options& options)
       : volume_{volume}, options_{options} {
-    setScene(group);
+    setScene(group, masks);
   }
 
   /// Draws that group from now on, which may be of the other kind. If it throws, the one before
-  /// stays.
-  void setScene(const Scene& group);
+  /// stays. `masks`: those of the bricks.
+  void setScene(const Scene& group, const LabelMasks& masks);
   std::size_t tableBytes() const { return media_ ? media_->tableBytes() : 0; }
 
   /// The one there is; the other kind is an error.

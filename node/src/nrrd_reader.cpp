@@ -14,6 +14,7 @@
 
 #include "burin/common/error.hpp"
 #include "file_formats.hpp"
+#include "slicer_segments.hpp"
 #include "stored_voxels.hpp"
 
 namespace burin::node {
@@ -241,6 +242,19 @@ void setSpacings(const Nrrd& nrrd, const std::array<unsigned, 3>& axes, VolumeIn
   }
 }
 
+std::vector<std::pair<std::string, std::string>> keyValuesOf(const Nrrd& nrrd) {
+  std::vector<std::pair<std::string, std::string>> all;
+  for (unsigned i = 0; i < nrrdKeyValueSize(&nrrd); ++i) {
+    char* key = nullptr;
+    char* value = nullptr;
+    nrrdKeyValueIndex(&nrrd, &key, &value, i);
+    const std::unique_ptr<char, void (*)(void*)> ownedKey{key, std::free};
+    const std::unique_ptr<char, void (*)(void*)> ownedValue{value, std::free};
+    if (key != nullptr && value != nullptr) all.emplace_back(key, value);
+  }
+  return all;
+}
+
 fs::path dataFileOf(const fs::path& headerFile, const NrrdIoState& state) {
   if (state.dataFNFormat != nullptr || state.dataFNArr->len > 1) failSeveral(headerFile.string());
   if (state.dataFNArr->len == 0) return headerFile;
@@ -291,6 +305,7 @@ std::unique_ptr<BrickSource> openNrrd(const VolumeChoice& choice) {
   VolumeInfo info;
   info.name = choice.file;
   info.format = "NRRD";
+  info.labels = slicerSegments(keyValuesOf(*header.nrrd));
   info.grid.dims = dimsOf(choice.file, *header.nrrd);
   const auto axes = spaceAxes(choice.file, *header.nrrd);
   if (header.nrrd->spaceDim == 3) {

@@ -101,7 +101,9 @@ std::unique_ptr<BrickSource> openProcedural(const VolumeChoice& choice) {
     fail(ExitCode::kUsage, "procedural volume \"{}\": dims are missing (expected three numbers)",
          choice.procedural);
   }
-  VoxelType type = VoxelType::kF32;
+  const auto kinds = proceduralKinds();
+  const auto kind = std::ranges::find(kinds, choice.procedural, &ProceduralKind::name);
+  VoxelType type = kind != kinds.end() && kind->isLabels ? VoxelType::kU8 : VoxelType::kF32;
   if (choice.type) {
     const auto named = voxelTypeFromName(*choice.type);
     if (!named) {

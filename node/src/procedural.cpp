@@ -57,7 +57,11 @@ double ctPhantom(const glm::dvec3& p) {
   return (ctPhantomHounsfield(p) + 1024) / 4095;
 }
 
-constexpr std::array<ProceduralKind, 6> kKinds{{
+double ctPhantomLabels(const glm::dvec3& p) {
+  return ctPhantomLabel(p) / 255.0;
+}
+
+constexpr std::array<ProceduralKind, 7> kKinds{{
     {"marschner-lobb", "test signal near the Nyquist frequency (Marschner & Lobb 1994)",
      marschnerLobb},
     {"shells", "four concentric spherical shells with a smooth profile", shells},
@@ -65,6 +69,9 @@ constexpr std::array<ProceduralKind, 6> kKinds{{
     {"ramp", "linear along x from 0 to 1", ramp},
     {"vessels", "a branching tree of smooth tubes", vessels},
     {"ct-phantom", "a head with CT-like values: skin, skull, brain, ventricles, eyes", ctPhantom},
+    {"ct-phantom-labels",
+     "its segmentation (u8): 1 soft tissue, 2 bone, 3 brain, 4 ventricles, 5 lesion, 6 eyes",
+     ctPhantomLabels, true},
 }};
 
 const ProceduralKind& kindNamed(std::string_view name) {
@@ -151,6 +158,9 @@ std::span<const ProceduralKind> proceduralKinds() {
 std::unique_ptr<BrickSource> makeProcedural(std::string_view name, const glm::ivec3& dims,
                                             VoxelType type, const glm::dvec3& spacing) {
   const ProceduralKind& kind = kindNamed(name);
+  if (kind.isLabels && type != VoxelType::kU8)
+    fail(ExitCode::kUsage, "procedural volume \"{}\": labels are of type u8 (found {})", name,
+         voxelTypeName(type));
   VolumeInfo info;
   info.name = fmt::format("procedural {}", name);
   info.format = "procedural";

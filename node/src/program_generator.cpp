@@ -218,6 +218,7 @@ class LayerCode {
     function_ = number;
     const std::size_t lines = ownLines ? addClass() : number;
     const std::string shown = ownLines ? fmt::format(" + extinction{}", lines) : "";
+    if (!layer.labels.empty()) bindToLabels(i, number, lines);
     const std::string shows = fmt::format("extinction{}{} > 0.0", number, shown);
     const bool hasHalo = layer.style("halo") != nullptr;
     std::string condition = hasSurfaces_ ? "surface < 0" : "";
@@ -227,6 +228,9 @@ class LayerCode {
     if (byGradient) {
       magnitude = magnitudeOf(i, layer);
       addWidgets(i, number, magnitude);
+      if (!layer.labels.empty())
+        body_ +=
+            fmt::format("    extinction{} *= membership({});\n", number, "kept_" + maskUniform(i));
     }
     const std::string colour = byGradient ? "widgetColour" : colourOf(number, ownLines);
     const bool fromPalette = palettesBefore_ && gradientNeededBy(layer);
@@ -240,6 +244,15 @@ class LayerCode {
               [&](const StyleSpec& style) { return !fromPalette || !style.needsGradient; });
     addResult(lines, hasHalo ? fmt::format("if ({}) ", shows) : "");
     body_ += "  }\n";
+  }
+
+  /// Classes count as far as the sample belongs to the layer's mask.
+  void bindToLabels(std::size_t layer, std::size_t number, std::size_t lines) {
+    const std::string mask = keepUniform("float", maskUniform(layer), uniforms_, prepare_);
+    std::string& code = palettesBefore_ ? finish_ : classify_;
+    code += fmt::format("  float member{} = membership({});\n", layer, mask);
+    for (std::size_t i = number; i <= lines; ++i)
+      code += fmt::format("  extinction{} *= member{};\n", i, layer);
   }
 
   std::size_t addClass() {
@@ -471,6 +484,7 @@ class LayerCode {
     if (hasCaps_) prepare += "  prepareCaps();\n";
     if (!gradients_.empty()) keepUniform("mat3", "differencesToGradient", text, prepare);
     if (quantisesNormals(scene_)) prepare += "  prepareDirections();\n";
+    if (labelsNeeded(scene_)) prepare += "  prepareLabels();\n";
     text += "void prepareLayers() {\n" + prepare + "}\n";
     if (preintegrated)
       text += "void classifySide(inout Side side) {\n" + ends_ + "}\n#include \"sides.glsl\"\n";
@@ -558,6 +572,9 @@ std::string magnitudeUniform(std::size_t layer) {
 std::string widgetsUniform(std::size_t layer) {
   return fmt::format("widgets{}", layer);
 }
+std::string maskUniform(std::size_t layer) {
+  return fmt::format("mask{}", layer);
+}
 
 std::vector<ClipPlane> cappedPlanes(const Scene& scene) {
   const auto seesCuts = [](const StyleSettings& s) { return findStyle(s.name)->seesCuts; };
@@ -587,6 +604,7 @@ std::string programHead(const Scene& scene, const ProgramOptions& options,
   if (options.countSamples) text += "#define COUNT_SAMPLES\n";
   if (options.severalBricks) text += "#define SEVERAL_BRICKS\n";
   if (haloReach(scene) > 0) text += "#define HALOS\n";
+  if (labelsNeeded(scene)) text += "#define LABELS\n";
   if (isAdaptive(scene.quality)) text += "#define ADAPTIVE\n";
   const auto surfaces = std::ranges::count(scene.layers, LayerMode::kIso, &Layer::mode);
   if (surfaces > 0) text += fmt::format("#define SURFACES {}\n", surfaces);
@@ -607,6 +625,7 @@ std::string programHead(const Scene& scene, const ProgramOptions& options,
   if (palettesBefore) text += "#include \"palettes.glsl\"\n";
   if (caps > 0) text += "#include \"caps.glsl\"\n";
   if (laplacianNeeded(scene)) text += "#include \"laplacian.glsl\"\n";
+  if (labelsNeeded(scene)) text += "#include \"labels.glsl\"\n";
   if (needsNeighbourhood(gradientOperatorsNeeded(scene)))
     text += "#include \"neighbourhood.glsl\"\n";
   if (scene.quality.preintegrated) text += "#include \"preintegration.glsl\"\n";

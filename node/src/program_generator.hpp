@@ -61,6 +61,7 @@ std::string magnitudeUniform(std::size_t layer);       ///< m = |gradient| * thi
 std::string isoColourUniform(std::size_t layer);       ///< vec4: a surface's colour and opacity
 std::string isoLineOpacityUniform(std::size_t layer);  ///< of the lines on it
 std::string widgetsUniform(std::size_t layer);         ///< vec4 array: widgetRows()
+std::string maskUniform(std::size_t layer);  ///< number of a layer's mask, if it is bound to one
 
 /// Those of a transfer function, by its number in transferFunctions().
 std::string transferUniform(std::size_t function);       ///< sampler1DArray

@@ -198,6 +198,7 @@ void setSceneUniforms(const GlProgram& program, const Scene& scene, const Progra
   program.set("volume", static_cast<int>(kVolumeUnit));
   program.set("distanceMap", static_cast<int>(kDistanceUnit));
   program.set("laplacianField", static_cast<int>(kLaplacianUnit));
+  program.set("labelMasks", static_cast<int>(kLabelUnit));
   const Box box = volume.grid.boxIndex();
   const glm::dvec3 centre = volume.grid.centreIndex();
   program.set("boxLo", toFloat(box.lo - centre));
@@ -290,6 +291,7 @@ void bindTextures(const Brick& brick) {
   gl().BindTextureUnit(kVolumeUnit, brick.volumeTexture());
   gl().BindTextureUnit(kDistanceUnit, brick.distanceTexture());
   gl().BindTextureUnit(kLaplacianUnit, brick.laplacianTexture());
+  gl().BindTextureUnit(kLabelUnit, brick.labelTexture());
 }
 
 }  // namespace burin::node

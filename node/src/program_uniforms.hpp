@@ -23,7 +23,8 @@ inline constexpr GLuint kVolumeUnit = 0;
 inline constexpr GLuint kDistanceUnit = 1;
 inline constexpr GLuint kFrameUnit = 2;
 inline constexpr GLuint kLaplacianUnit = 3;
-inline constexpr GLuint kFirstTransferUnit = 4;
+inline constexpr GLuint kLabelUnit = 4;
+inline constexpr GLuint kFirstTransferUnit = 5;
 
 // The uniforms of lattice.glsl, volume.glsl, skip.glsl, shading.glsl, ownership.glsl and of the
 // generated layers, which all techniques share. Setting one that a program lacks does nothing.

@@ -54,13 +54,14 @@ double mostSamplesOfSegment(const Scene& scene, const ProgramVolume& volume, boo
 
 }  // namespace
 
-Raycaster::Raycaster(const Scene& scene, const ProgramVolume& volume, const DrawOptions& options)
+Raycaster::Raycaster(const Scene& scene, const LabelMasks& masks, const ProgramVolume& volume,
+                     const DrawOptions& options)
     : volume_{volume}, options_{options}, vertexArray_{makeVertexArray()} {
   if (options_.countSamples) counters_.emplace();
-  setScene(scene);
+  setScene(scene, masks);
 }
 
-void Raycaster::setScene(const Scene& scene) {
+void Raycaster::setScene(const Scene& scene, const LabelMasks& masks) {
   const bool steep = isSteep(scene, volume_);
   ShaderSource source = generateRaycastProgram(
       scene, {volume_.scale.hasInvalid, options_.countSamples, options_.severalBricks, steep});
@@ -72,6 +73,8 @@ void Raycaster::setScene(const Scene& scene) {
   scene_ = scene;
   mostSamplesOfSegment_ = mostSamplesOfSegment(scene, volume_, steep);
   setSceneUniforms(*program_, scene_, volume_, textures_.tables(), kFirstTransferUnit);
+  for (std::size_t i = 0; i < scene_.layers.size(); ++i)
+    program_->set(maskUniform(i), static_cast<float>(masks.of(scene_.layers[i])));
   program_->set("frame", static_cast<int>(kFrameUnit));
   program_->set("skipEmpty", options_.skip ? 1.0f : 0.0f);
   program_->set("termination", static_cast<float>(scene_.quality.termination));

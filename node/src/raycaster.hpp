@@ -16,9 +16,10 @@ namespace burin::node {
 /// Draws bricks with the fused ray-cast program, each blended behind the ones before it.
 class Raycaster : public BrickRenderer {
  public:
-  Raycaster(const Scene& scene, const ProgramVolume& volume, const DrawOptions& options);
+  Raycaster(const Scene& scene, const LabelMasks& masks, const ProgramVolume& volume,
+            const DrawOptions& options);
 
-  void setScene(const Scene& scene) override;
+  void setScene(const Scene& scene, const LabelMasks& masks) override;
   std::size_t tableBytes() const override { return textures_.bytes(); }
   compositor::SubimageView<Rgba> draw(const Camera& camera, std::span<const Brick* const> bricks,
                                       RankStatistics& statistics, const PixelRoom& room,

@@ -8,6 +8,7 @@
 
 #include "burin/common/error.hpp"
 #include "reference_hit.hpp"
+#include "reference_labels.hpp"
 #include "reference_laplacian.hpp"
 #include "reference_layer.hpp"
 #include "reference_pieces.hpp"
@@ -43,7 +44,8 @@ double difference(const Span& a, const Span& b) {
 }  // namespace
 
 struct ReferenceRenderer::State {
-  State(const Scene& givenScene, BrickSource& source, const ReferenceScales& scales);
+  State(const Scene& givenScene, BrickSource& source, const ReferenceScales& scales,
+        BrickSource* labelSource);
 
   /// A ray in index space.
   struct Path {
@@ -83,6 +85,7 @@ struct ReferenceRenderer::State {
   Scene scene;
   ReferenceVolume volume;
   std::optional<ReferenceLaplacian> laplacian;  ///< if a layer needs it
+  std::optional<ReferenceLabels> labels;        ///< if a layer is bound to some
   /// No transfer function is two-dimensional, no halos are cast: what shows is known by its values.
   bool isByValue;
   /// What the picture is put together from, the last one on top.
@@ -95,7 +98,7 @@ struct ReferenceRenderer::State {
 };
 
 ReferenceRenderer::State::State(const Scene& givenScene, BrickSource& source,
-                                const ReferenceScales& scales)
+                                const ReferenceScales& scales, BrickSource* labelSource)
     : scene{givenScene},
       volume{source},
       isByValue{!hasWidgets(scene) && haloReach(scene) == 0},
@@ -111,6 +114,9 @@ ReferenceRenderer::State::State(const Scene& givenScene, BrickSource& source,
     }
   }
   if (laplacianNeeded(scene)) laplacian.emplace(volume, scales.laplacian);
+  if (!labelsNeeded(scene)) return;
+  BURIN_CHECK(labelSource != nullptr);
+  labels.emplace(*labelSource);
 }
 
 ReferencePlace ReferenceRenderer::State::placeAt(const glm::dvec3& index) const {
@@ -148,6 +154,7 @@ Classified ReferenceRenderer::State::sampleOf(const Path& path, const glm::dvec3
     } else {
       classes = preintegrated ? layer.classify(front, back) : layer.classify(*value);
     }
+    if (labels) classes.scale(labels->membership(layer.labels(), index));
     // No style but halos adds extinction where the transfer functions give none.
     if (!classes.shows() && layer.halo() == nullptr) continue;
     lookAround();
@@ -317,8 +324,8 @@ ReferenceScales surveyedScales(const VolumeSurvey& survey, const Scene& scene) {
 }
 
 ReferenceRenderer::ReferenceRenderer(const Scene& scene, BrickSource& source,
-                                     const ReferenceScales& scales)
-    : state_{std::make_unique<State>(scene, source, scales)} {}
+                                     const ReferenceScales& scales, BrickSource* labels)
+    : state_{std::make_unique<State>(scene, source, scales, labels)} {}
 
 ReferenceRenderer::~ReferenceRenderer() = default;
 

@@ -26,6 +26,7 @@ ReferenceLayer::ReferenceLayer(const Layer& layer, ReferenceGradientScale& scale
       unitLength_{transferFunction_.opacityUnitLength.value()},
       means_{transferFunction_, unitLength_},
       isoValue_{layer.isoValue},
+      labels_{layer.labels},
       isoOpacity_{layer.isoOpacity} {
   if (transferFunction_.isTwoDimensional()) widgets_.emplace(transferFunction_, unitLength_);
   if (!layer.lineOpacity.empty()) {

@@ -20,6 +20,11 @@ struct ReferenceClass {
   double lineExtinction = 0;  ///< pass II, where lines are opaque
 
   bool shows() const { return plain.extinction > 0 || lineExtinction > 0; }
+  /// As far as the place belongs to the layer.
+  void scale(double membership) {
+    plain.extinction *= membership;
+    lineExtinction *= membership;
+  }
 };
 
 /// What styles know of a sample's surroundings.
@@ -42,6 +47,8 @@ class ReferenceLayer {
 
   /// Value of the surface that the layer is, if it is one.
   const std::optional<double>& isoValue() const { return isoValue_; }
+  /// Those it is bound to, if any.
+  const std::vector<LabelName>& labels() const { return labels_; }
   /// Of such a surface: opacities stand where media have extinctions.
   ReferenceClass isoClass() const;
 
@@ -134,6 +141,7 @@ class ReferenceLayer {
   std::optional<TransferFunction> lineFunction_;  ///< pass II's own
   std::optional<ReferenceMeanClass> lineMeans_;
   std::optional<double> isoValue_;
+  std::vector<LabelName> labels_;
   double isoOpacity_;
   GradientOperator operator_ = GradientOperator::kCentral;
   double noiseFloor_ = 0;

@@ -39,14 +39,14 @@ void scissor(const PixelRect& pixels) {
 
 }  // namespace
 
-Slicer::Slicer(const Scene& scene, const ProgramVolume& volume, const DrawOptions& options,
-               Precision precision)
+Slicer::Slicer(const Scene& scene, const LabelMasks& masks, const ProgramVolume& volume,
+               const DrawOptions& options, Precision precision)
     : volume_{volume},
       options_{options},
       vertexArray_{makeVertexArray()},
       target_{formatOf(precision)} {
   if (options_.countSamples) counters_.emplace();
-  setScene(scene);
+  setScene(scene, masks);
 }
 
 GlProgram* Slicer::program(const std::string& key, const ShaderSource& source) {
@@ -64,7 +64,7 @@ Slicer::Pass Slicer::makePass(const Scene& scene, std::size_t layer, LayerPass k
   return {layer, kind, program(std::to_string(layer), source)};
 }
 
-void Slicer::setScene(const Scene& scene) {
+void Slicer::setScene(const Scene& scene, const LabelMasks& masks) {
   const auto lined =
       static_cast<std::size_t>(std::ranges::count_if(scene.layers, &Layer::hasLines));
   const bool isDirect = scene.quality.combine == Combine::kOver || scene.layers.size() + lined == 1;
@@ -87,6 +87,7 @@ void Slicer::setScene(const Scene& scene) {
     setSceneUniforms(*pass.program, part, volume_,
                      textures_.tables().subspan(first, transferFunctions(part).size()),
                      kFirstTransferUnit + kUnitsPerFunction * static_cast<GLuint>(first));
+    pass.program->set(maskUniform(0), static_cast<float>(masks.of(scene_.layers[pass.layer])));
     pass.program->set("skipEmpty", options_.skip ? 1.0f : 0.0f);
   }
 }

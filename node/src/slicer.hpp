@@ -27,10 +27,10 @@ namespace burin::node {
 /// frame at once.
 class Slicer : public BrickRenderer {
  public:
-  Slicer(const Scene& scene, const ProgramVolume& volume, const DrawOptions& options,
-         Precision precision);
+  Slicer(const Scene& scene, const LabelMasks& masks, const ProgramVolume& volume,
+         const DrawOptions& options, Precision precision);
 
-  void setScene(const Scene& scene) override;
+  void setScene(const Scene& scene, const LabelMasks& masks) override;
   std::size_t tableBytes() const override { return textures_.bytes(); }
   compositor::SubimageView<Rgba> draw(const Camera& camera, std::span<const Brick* const> bricks,
                                       RankStatistics& statistics, const PixelRoom& room,

@@ -14,7 +14,8 @@
 #include "drawing_cost.hpp"
 #include "group_image.hpp"
 #include "group_renderer.hpp"
-#include "visible_blocks.hpp"
+#include "label_voxels.hpp"
+#include "visible_group.hpp"
 
 namespace burin::node {
 namespace {
@@ -44,23 +45,25 @@ BrickTree partition(const Communicator& comm, const DrawingCost& cost, int ghost
 
 /// What this rank's bricks will take; `boxes`: the voxels they store.
 MemoryNeed needOf(std::span<const IndexBox> boxes, const VolumeInfo& volume,
-                  const ValueScale& scale, bool hasLaplacian) {
+                  const ValueScale& scale, bool hasLaplacian, const LabelMasks& masks) {
   /// Macrocells and distance maps beside the texels; `resident_voxel_bytes` is held to it.
   constexpr double kWithMaps = 1.2;
   std::size_t voxels = 0;
   for (const IndexBox& box : boxes) voxels += box.count();
-  const std::size_t perVoxel =
-      bytesPerTexel(volume.type, scale.hasInvalid) + (hasLaplacian ? sizeof(float) : 0);
+  const std::size_t perVoxel = bytesPerTexel(volume.type, scale.hasInvalid) +
+                               (hasLaplacian ? sizeof(float) : 0) +
+                               (masks.sets().empty() ? 0 : bytesPerLabelTexel(masks.sets().size()));
   const std::size_t texels = voxels * perVoxel;
   return {
       static_cast<std::int64_t>(kWithMaps * static_cast<double>(texels)),
       fmt::format("{} brick{} with {} voxels", boxes.size(), boxes.size() == 1 ? "" : "s", voxels)};
 }
 
+constexpr std::size_t kSlabBytes = std::size_t{8} << 20;
+
 /// Collective. Voxels straight into textures; what is staged is a few times kSlabBytes.
 void loadBricks(const Communicator& comm, BrickSource& source, std::span<const IndexBox> boxes,
                 std::span<Brick> bricks) {
-  constexpr std::size_t kSlabBytes = std::size_t{8} << 20;
   const TraceSpan loading{"load"};
   StagingBuffer staging;
   readSlabs(
@@ -72,9 +75,18 @@ void loadBricks(const Communicator& comm, BrickSource& source, std::span<const I
       kSlabBytes);
 }
 
+/// How far from a macrocell in which a value shows a layer may be bound to labels: as far as a
+/// segment's middle is from its end, to the voxels around the middle, and as far as a look-up may
+/// round.
+int labelReach(const Scene& scene) {
+  constexpr double kRounding = 0.01;
+  constexpr double kMost = kLargestTextureExtent;
+  return static_cast<int>(std::min(segmentReachVoxels(scene) + kRounding, kMost)) + 1;
+}
+
 /// What a scene may show, as far as that is known without voxels: the same on every rank.
 struct Shown {
-  VisibleValues values;
+  std::vector<VisibleGroup> groups;
   std::vector<glm::vec4> clipPlanes;
   std::vector<std::uint8_t> blocks;  ///< VisibleBlocks::mark()
 };
@@ -82,7 +94,9 @@ struct Shown {
 bool showsTheSame(const Scene& a, const Scene& b) {
   return a.clip == b.clip && a.clipBox == b.clipBox && a.quality.palettes == b.quality.palettes &&
          haloReach(a) == haloReach(b) && transferFunctions(a) == transferFunctions(b) &&
-         shownSurfaces(a) == shownSurfaces(b) && projectedFrom(a) == projectedFrom(b);
+         shownSurfaces(a) == shownSurfaces(b) && projectedFrom(a) == projectedFrom(b) &&
+         std::ranges::equal(a.layers, b.layers, {}, &Layer::labels, &Layer::labels) &&
+         (!labelsNeeded(b) || labelReach(a) == labelReach(b));
 }
 
 }  // namespace
@@ -98,10 +112,13 @@ struct Worker::State {
   SurveyRequest surveyed;  ///< what the survey has
   ValueScale scale;
   VisibleBlocks blocks;
-  Shown shown;  ///< by the scene
+  std::vector<LabelSet> blockLabels;  ///< LabelSurvey::blocks, once a scene has needed them
+  Shown shown;                        ///< by the scene
   BrickTree tree;
   int ghosts = 0;                           ///< of the bricks loaded
   bool hasLaplacian = false;                ///< the bricks loaded
+  LabelMasks masks;                         ///< of the bricks loaded
+  int maskReach = 0;                        ///< theirs
   std::vector<IndexBox> parts;              ///< by brick: its cells that its owner has loaded
   bool isWhole = false;                     ///< the last load went well
   std::vector<BrickId> mine;                ///< this rank's bricks
@@ -133,17 +150,23 @@ struct Worker::State {
   bool isLoaded(const Scene& next, const Shown& what) const;
   std::size_t sharedBytes() const;
   void setRenderers();
+  bool hasMasks(const Scene& next) const;
   void measure();
+  void measureLabels(const Scene& next);
   void load();
   void loadParts();
+  void loadMasks();
+  void changeMasks();
+  void dropBricks();
   void classify();
 };
 
 Shown Worker::State::whatShows(const Scene& next) const {
   Shown what;
-  what.values = VisibleValues{next, transferTables(next, scale), scale};
+  what.groups = visibleGroups(next, LabelMasks{next}, scale);
   what.clipPlanes = centredClipPlanes(next, grid());
-  what.blocks = blocks.mark(what.values, what.clipPlanes, grid());
+  what.blocks =
+      markBlocks(blocks, what.groups, blockLabels, labelReach(next), what.clipPlanes, grid());
   return what;
 }
 
@@ -192,12 +215,18 @@ bool Worker::State::isLoaded(const Scene& next, const Shown& what) const {
   return true;
 }
 
+/// Whether the bricks' masks are those of a scene. The same answer on every rank.
+bool Worker::State::hasMasks(const Scene& next) const {
+  return !labelsNeeded(next) ||
+         (masks.sets() == LabelMasks{next}.sets() && labelReach(next) <= maskReach);
+}
+
 /// What this rank holds beside its bricks: grows with the volume, but no further than the survey's
 /// blocks do.
 std::size_t Worker::State::sharedBytes() const {
   std::size_t tables = 0;
   for (const GroupRenderer& renderer : renderers) tables += renderer.tableBytes();
-  return blocks.bytes() + shown.blocks.size() + tables;
+  return blocks.bytes() + blockLabels.size() * sizeof(LabelSet) + shown.blocks.size() + tables;
 }
 
 /// Local. This rank's loaded bricks, front to back, ready to be drawn; counts them with the first
@@ -222,13 +251,14 @@ std::vector<const Brick*> Worker::State::beginGroup(const Camera& camera, std::s
 /// Local. Those that the scene's groups need; programs of as many as there were are kept.
 void Worker::State::setRenderers() {
   const std::vector<Scene> groups = layerGroups(scene);
+  const LabelMasks ofAll{scene};
   const GroupRenderer::Options how{
       {options.skip, options.countSamples, mine.size() > 1}, options.technique, options.precision};
   for (std::size_t i = 0; i < groups.size(); ++i) {
     if (i < renderers.size())
-      renderers[i].setScene(groups[i]);
+      renderers[i].setScene(groups[i], ofAll);
     else
-      renderers.emplace_back(groups[i], ProgramVolume{grid(), scale, survey.gradients}, how);
+      renderers.emplace_back(groups[i], ofAll, ProgramVolume{grid(), scale, survey.gradients}, how);
   }
   renderers.erase(renderers.begin() + static_cast<std::ptrdiff_t>(groups.size()), renderers.end());
 }
@@ -250,6 +280,20 @@ void Worker::State::measure() {
   renderers.clear();  // their programs know the gradients' scale
 }
 
+/// Collective. Where which labels are, if a scene is the first to ask for it.
+void Worker::State::measureLabels(const Scene& next) {
+  if (!labelsNeeded(next) || !blockLabels.empty()) return;
+  BURIN_CHECK(options.labels != nullptr);
+  BURIN_CHECK(options.labels->info().grid.dims == grid().dims);
+  blockLabels = surveyLabels(comm, *options.labels).blocks;
+}
+
+void Worker::State::dropBricks() {
+  bricks.clear();
+  std::ranges::fill(parts, IndexBox{});
+  isWhole = false;
+}
+
 /// Collective. Splits the volume for the scene and loads what it can show of this rank's bricks. If
 /// that fails there are none.
 void Worker::State::load() {
@@ -260,8 +304,7 @@ void Worker::State::load() {
     loadParts();
     isWhole = true;
   } catch (...) {
-    bricks.clear();
-    std::ranges::fill(parts, IndexBox{});
+    dropBricks();
     throw;
   }
 }
@@ -269,6 +312,7 @@ void Worker::State::load() {
 void Worker::State::loadParts() {
   const VolumeInfo& volume = source.info();
   measure();
+  measureLabels(scene);
   shown = whatShows(scene);
   ghosts = ghostLayers(scene, options);
   hasLaplacian = laplacianNeeded(scene);
@@ -284,7 +328,7 @@ void Worker::State::loadParts() {
   std::vector<IndexBox> boxes;
   for (const BrickId id : mine)
     if (!part(id).empty()) boxes.push_back(storedVoxels(part(id), ghosts, volume.grid));
-  const MemoryNeed need = needOf(boxes, volume, scale, hasLaplacian);
+  const MemoryNeed need = needOf(boxes, volume, scale, hasLaplacian, LabelMasks{scene});
   checkMemory(comm, need);
   collectively(comm, "preparing to draw", [&] {
     if (!draws) return;  // an idle rank needs no OpenGL
@@ -301,16 +345,59 @@ void Worker::State::loadParts() {
     }
   });
   loadBricks(comm, source, boxes, bricks);
+  loadMasks();
   collectively(comm, "classifying bricks", [&] {
     for (Brick& brick : bricks) brick.finishLoading();
     classify();
   });
 }
 
+/// Collective. The scene's masks of the bricks that are there.
+void Worker::State::loadMasks() {
+  masks = LabelMasks{scene};
+  maskReach = labelReach(scene);
+  if (masks.sets().empty()) return;
+  const TraceSpan loading{"load labels"};
+  std::vector<IndexBox> boxes;
+  collectively(comm, "making room for labels", [&] {
+    for (Brick& brick : bricks) {
+      brick.makeLabels(masks.sets().size(), maskReach);
+      boxes.push_back(brick.storedVoxels());
+    }
+  });
+  std::vector<int> labels;
+  std::vector<MaskBits> bits;
+  const auto take = [&](const Slab& slab) {
+    readLabels(options.labels->info(), slab.voxels, labels);
+    masks.bitsOf(labels, bits);
+    bricks[slab.request].uploadLabels(slab.box, bits);
+  };
+  constexpr std::size_t kLabelsOfSlab = std::size_t{1}
+                                        << 20;  // each takes 7 bytes beside its voxel
+  readSlabs(comm, *options.labels, boxes, take,
+            kLabelsOfSlab * bytesPerVoxel(options.labels->info().type));
+}
+
+/// Collective. What load() does where the bricks' voxels stay and the scene has other labels.
+void Worker::State::changeMasks() {
+  try {
+    collectively(comm, "changing the scene", [&] {
+      if (bricks.empty()) return;
+      context->makeCurrent();
+      setRenderers();
+    });
+    loadMasks();
+    collectively(comm, "classifying bricks", [&] { classify(); });
+  } catch (...) {
+    dropBricks();
+    throw;
+  }
+}
+
 /// Local. What the scene can show of each brick.
 void Worker::State::classify() {
   const TraceSpan span{"classify"};
-  for (Brick& brick : bricks) brick.classify(shown.values, shown.clipPlanes);
+  for (Brick& brick : bricks) brick.classify(shown.groups, shown.clipPlanes);
 }
 
 Worker::Worker(const Communicator& comm, const Scene& scene, BrickSource& source,
@@ -325,6 +412,7 @@ void Worker::update(const Scene& scene) {
   State& state = *state_;
   collectively(state.comm, "the scene",
                [&] { checkTechnique(scene, state.options.technique, state.options.precision); });
+  state.measureLabels(scene);
   const bool sameShown = showsTheSame(state.scene, scene);
   Shown shown = sameShown ? state.shown : state.whatShows(scene);
   const bool mustLoad =
@@ -332,6 +420,7 @@ void Worker::update(const Scene& scene) {
   const Scene before = std::exchange(state.scene, scene);
   if (mustLoad) return state.load();
   std::swap(state.shown, shown);
+  if (!state.hasMasks(scene)) return state.changeMasks();
   const auto apply = [&] {
     if (state.bricks.empty()) return;
     state.context->makeCurrent();

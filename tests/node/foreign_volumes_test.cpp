@@ -168,6 +168,18 @@ std::vector<float> valuesOf(node::BrickSource& source) {
   return values;
 }
 
+// Keys that another program wrote, as 3D Slicer names its segments.
+TEST(SegmentedVolumes, SayTheirSegments) {
+  const LabelInfo liver{5, "liver", Colour{221, 130, 101}, 0};
+  const LabelInfo kidney{2, "left \"kidney\"", Colour{128, 255, 0}, 1};
+  for (const char* file : {"unu_one.seg.nrrd", "unu_two.seg.nrrd"}) {
+    if (!fs::exists(written().folder / file)) return skipIfWritersAreMissing();
+    VolumeChoice choice = fileChoice(written().folder / file);
+    choice.component = 0;
+    EXPECT_THAT(node::openVolume(choice)->info().labels, testing::ElementsAre(liver, kidney));
+  }
+}
+
 // A converter may turn the order of rows and slices over; in the world all stays where it is.
 TEST(ConvertedDicom, StandsInTheSamePlace) {
   std::istringstream lines{contentOf(written().folder.path() / "pairs.txt")};

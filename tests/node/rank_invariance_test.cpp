@@ -31,8 +31,9 @@ void expectSameAsAlone(const Scene& scene, node::BrickSource& source,
   std::optional<node::Worker> alone;
   const Communicator self{MPI_COMM_SELF};
   if (world().isRoot())
-    alone.emplace(self, scene, source,
-                  node::WorkerOptions{.bricks = 1, .technique = options.technique});
+    alone.emplace(
+        self, scene, source,
+        node::WorkerOptions{.bricks = 1, .technique = options.technique, .labels = options.labels});
   for (const Camera& camera : cameras) {
     const std::optional<Image<Rgba>> frame = drawTogether(together, camera);
     ASSERT_EQ(frame.has_value(), world().isRoot());
@@ -124,6 +125,20 @@ TEST(RankInvariance, Slices) {
   scene = resolved(scene, source);
   expectSameAsAlone(scene, source, cameras(scene, source.info().grid),
                     {.bricks = 5, .technique = node::Technique::kSlices});
+}
+
+TEST(RankInvariance, Labels) {
+  const VolumeGrid grid = gridOf({46, 37, 29}, {1.0, 0.8, 1.9});
+  ArraySource source = smoothVolume(grid);
+  ArraySource labels = ArraySource::of<std::uint8_t>(grid, node::VoxelType::kU8, [](glm::ivec3 i) {
+    return static_cast<std::uint8_t>((i.x / 9 + i.y / 7 + i.z / 5) % 4);
+  });
+  Scene scene = sceneWithStyle("light");
+  scene.layers.push_back(sceneWithStyle("plain").layers[0]);
+  scene.layers[0].labels = {1, 3};
+  scene.layers[1].labels = {2};
+  scene = resolved(scene, source);
+  expectSameAsAlone(scene, source, cameras(scene, grid), {.bricks = 7, .labels = &labels});
 }
 
 TEST(RankInvariance, DedicatedHost) {

@@ -25,11 +25,17 @@ burin_add_renderer_test(program_generator_test RANKS 1 TIMEOUT 300)
 burin_add_renderer_test(macrocells_test RANKS 1)
 burin_add_renderer_test(clip_planes_test RANKS 1)
 burin_add_renderer_test(visible_blocks_test RANKS 1)
+burin_add_renderer_test(labels_test RANKS 1 TIMEOUT 300)
 burin_add_renderer_test(brick_parts_test RANKS 1 TIMEOUT 300)
 burin_add_renderer_test(transfer_table_test RANKS 1)
 burin_add_renderer_test(cost_estimate_test RANKS 1 3)
 burin_add_renderer_test(balanced_tree_test RANKS 1)
 burin_add_renderer_test(gl_backends_test RANKS 1 TIMEOUT 300)
+
+# What of it takes all ranks together.
+add_test(NAME labels_test_3 COMMAND ${BURIN_MPIRUN} -n 3 $<TARGET_FILE:labels_test>
+  --gtest_filter=*FailAllRanks:LabelSurvey.*)
+burin_set_test(labels_test_3 TIMEOUT 120 PROCESSORS 2 LABELS node gl mpi)
 
 # One scene on 13 ranks: an odd count far above the cores.
 add_test(NAME rank_invariance_test_13 COMMAND ${BURIN_MPIRUN} -n 13

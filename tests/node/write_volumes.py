@@ -132,6 +132,22 @@ def nrrd():
                     path("unu_rgb.nrrd")], check=True)
     for component in range(3):
         case("unu_rgb.nrrd", values[..., component], "u8", plain(spacing=(1, 1, 1)), component)
+    # Segmentations as 3D Slicer saves them; the second one's segments overlap.
+    segments = [("liver", "0.867 0.51 0.396", 5, 0), ("left \"kidney\"", "0.5 1 0", 2, 1)]
+    for file, values, axes in (("unu_one.seg.nrrd", sample("u8") % 6, []),
+                               ("unu_two.seg.nrrd", sample("u8", 2) % 6, ["2"])):
+        values.tofile(path("unu.raw"))
+        kinds = ["list"] * len(axes) + ["domain"] * 3
+        subprocess.run([unu, "make", "-i", path("unu.raw"), "-t", "uchar", "-s", *axes, "7", "5", "6",
+                        "-k", *kinds, "-e", "raw", "-kv", "Segmentation_ContainedRepresentationNames:=x",
+                        "-o", path("unu.nrrd")], check=True)
+        # unu takes no values with blanks.
+        keys = "".join(f"Segment{i}_{key}:={value}\n" for i, segment in enumerate(segments)
+                       for key, value in zip(("Name", "Color", "LabelValue", "Layer"), segment))
+        edit("unu.nrrd", file, b"Segmentation_C", keys.encode() + b"Segmentation_C")
+        for component in range(len(axes) and 2):
+            case(file, values[..., component], "u8", plain(spacing=(1, 1, 1)), component)
+    case("unu_one.seg.nrrd", sample("u8") % 6, "u8", plain(spacing=(1, 1, 1)))
 
 
 @section("vtk", "vtk.util.numpy_support")

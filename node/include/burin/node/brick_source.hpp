@@ -8,8 +8,10 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "burin/common/geometry.hpp"
+#include "burin/common/labels.hpp"
 #include "burin/common/scene.hpp"
 
 namespace burin::node {
@@ -28,7 +30,8 @@ struct VolumeInfo {
   bool anatomical = false;  ///< world is LPS
   std::string encoding;     ///< how the file keeps its voxels: "u8, gzip"; "" if there is no file
   int components = 1;       ///< per voxel in the file; one of them is delivered
-  std::string notice;       ///< what the user should know of how it is read, "" if nothing
+  std::vector<LabelInfo> labels;  ///< of a segmentation that describes its own (3D Slicer)
+  std::string notice;             ///< what the user should know of how it is read, "" if nothing
   std::size_t bytes() const { return grid.voxelCount() * bytesPerVoxel(type); }
 };
 

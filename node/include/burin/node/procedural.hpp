@@ -18,9 +18,10 @@ struct ProceduralKind {
   std::string_view name;
   std::string_view help;  ///< one line
   double (*value)(const glm::dvec3& p);
+  bool isLabels = false;  ///< a segmentation: label / 255, of type u8 only
 };
 
-/// marschner-lobb, shells, homogeneous, ramp, vessels, ct-phantom.
+/// marschner-lobb, shells, homogeneous, ramp, vessels, ct-phantom, ct-phantom-labels.
 std::span<const ProceduralKind> proceduralKinds();
 
 /// Throws Error{kUsage} naming the nearest kind if `name` is unknown.

@@ -36,8 +36,11 @@ class ReferenceRenderer {
   /// to move steep surface curves by more than renderer and reference may differ. A comparison of
   /// the two therefore hands the survey's numbers to both.
   ///
+  /// `labels`: the label volume, needed if a layer is bound to labels.
+  ///
   /// Throws Error{kVolume} if the voxels cannot be read.
-  ReferenceRenderer(const Scene& scene, BrickSource& source, const ReferenceScales& scales = {});
+  ReferenceRenderer(const Scene& scene, BrickSource& source, const ReferenceScales& scales = {},
+                    BrickSource* labels = nullptr);
   ~ReferenceRenderer();
   ReferenceRenderer(const ReferenceRenderer&) = delete;
   ReferenceRenderer& operator=(const ReferenceRenderer&) = delete;

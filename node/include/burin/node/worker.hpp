@@ -36,6 +36,9 @@ struct WorkerOptions {
   /// Views for which the bricks are to be balanced (the same on all ranks); others can be drawn as
   /// well. Empty: for none in particular.
   std::vector<Camera> views = {};
+  /// The label volume (checkLabelVolume), which must still be there for updates; needed for scenes
+  /// with layers that are bound to labels.
+  BrickSource* labels = nullptr;
   /// Overrides what the scene's styles declare: tests show with it that the declaration is needed.
   std::optional<int> ghostLayers = std::nullopt;
 };
@@ -56,9 +59,10 @@ class Worker {
   /// uniforms; a transfer function is a new table and new occupancy; other styles are a program;
   /// more ghost layers, an operator's first gradients, the first Laplacian, parts that were not
   /// loaded because nothing showed there, or a split that has become bad mean that bricks are
-  /// loaded again. `scene` must be resolved and of the same volume; the communicator and the source
-  /// given at the start must still be there. Throws CollectiveError; the worker then draws what it
-  /// drew before, or nothing if bricks were being loaded.
+  /// loaded again; other labels mean that the label volume is read again. `scene` must be resolved
+  /// and of the same volume; the communicator and the source given at the start must still be
+  /// there. Throws CollectiveError; the worker then draws what it drew before, or nothing if bricks
+  /// were being loaded.
   void update(const Scene& scene);
 
   const VolumeSurvey& survey() const;  ///< without its blocks
