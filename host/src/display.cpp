@@ -42,13 +42,14 @@ constexpr std::string_view kTheScene = "the scene";
 
 }  // namespace
 
-void checkConflicts(const RenderOptions& options, const fs::path& volume) {
+void checkConflicts(const RenderOptions& options, const fs::path& volume, const fs::path& labels) {
   const NamedFile outputs[] = {{"-o", frameFile(options, 0)},
                                {"--stats", options.stats},
                                {"--trace", options.trace},
                                {kSaveScene, options.saveScene}};
   const NamedFile inputs[] = {{kTheScene, isSceneFile(options.input) ? options.input : ""},
-                              {"the volume", volume}};
+                              {"the volume", volume},
+                              {"the labels", labels}};
   for (const NamedFile& output : outputs) {
     for (const NamedFile& input : inputs) {
       const bool allowed = output.role == kSaveScene && input.role == kTheScene;
@@ -66,7 +67,7 @@ void checkConflicts(const RenderOptions& options, const fs::path& volume) {
 
 void checkOutputs(const RenderOptions& options) {
   const bool volumeGiven = !options.input.empty() && !isSceneFile(options.input);
-  checkConflicts(options, volumeGiven ? options.input : options.volume);
+  checkConflicts(options, volumeGiven ? options.input : options.volume, options.labels.file);
   checkWritable(frameFile(options, 0));
   if (!options.stats.empty()) checkWritable(options.stats);
   if (!options.trace.empty()) checkWritable(options.trace);

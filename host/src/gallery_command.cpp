@@ -83,7 +83,9 @@ class Gallery {
       progress_.show("reading the volume");
       prepared_ = prepareScene(comm_, options_.render);
       unstyled_ = prepared_.scene;
-      onRoot(comm_, [&] { checkConflicts(options_.render, prepared_.scene.volume.file); });
+      onRoot(comm_, [&] {
+        checkConflicts(options_.render, prepared_.scene.volume.file, prepared_.scene.labels.file);
+      });
     }
     SheetLayout layout;
     onRoot(comm_, [&] {
@@ -157,10 +159,11 @@ class Gallery {
     RenderOptions render = options_.render;
     render.input = options_.inputs[static_cast<std::size_t>(index)];
     PreparedScene next = prepareScene(comm_, render);
-    onRoot(comm_, [&] { checkConflicts(render, next.scene.volume.file); });
+    onRoot(comm_, [&] { checkConflicts(render, next.scene.volume.file, next.scene.labels.file); });
     const fs::path input = render.input.empty() ? render.volume : render.input;
     const std::string label = next.scene.annotations.title.value_or(input.stem().string());
-    if (frames_ && next.scene.volume == prepared_.scene.volume) {
+    if (frames_ && next.scene.volume == prepared_.scene.volume &&
+        next.scene.labels == prepared_.scene.labels) {
       prepared_.scene = next.scene;
     } else {
       frames_.reset();

@@ -12,7 +12,9 @@
 #include "burin/host/scene_setup.hpp"
 #include "burin/host/shared_error.hpp"
 #include "burin/host/text.hpp"
+#include "burin/node/label_volume.hpp"
 #include "burin/node/survey.hpp"
+#include "label_setup.hpp"
 
 namespace burin::host {
 
@@ -87,6 +89,18 @@ void writeGradientHistogram(const Communicator& comm, node::BrickSource& source,
          [&] { deferInterrupts([&] { writePng(target, drawGradientHistogram(histogram), {}); }); });
 }
 
+/// Number, name and colour of each label that is described, and how many voxels have it.
+std::string describeLabels(std::span<const LabelInfo> labels, const node::LabelSurvey& survey) {
+  std::string text;
+  for (const LabelInfo& label : labels) {
+    const auto found = survey.voxels.find(label.value);
+    text += line("label", fmt::format("{} \"{}\"{}, {} voxels", label.value, label.name,
+                                      label.colour ? " " + label.colour->hex() : "",
+                                      found == survey.voxels.end() ? 0 : found->second));
+  }
+  return text;
+}
+
 }  // namespace
 
 int runCommand(const Communicator& comm, const InfoOptions& options) {
@@ -102,10 +116,15 @@ int runCommand(const Communicator& comm, const InfoOptions& options) {
   const auto source = openTogether(comm, choice);
   const auto survey =
       node::surveyVolume(comm, *source, {GradientOperatorSet{GradientOperator::kCentral}});
+  const std::vector<LabelInfo> labels = options.labelNames.empty()
+                                            ? source->info().labels
+                                            : labelDescriptions(comm, options.labelNames);
+  const std::string labelText =
+      labels.empty() ? "" : describeLabels(labels, node::surveyLabels(comm, *source));
   const Histogram histogram = computeHistogram(comm, *source, survey);
   if (hasPicture) writeGradientHistogram(comm, *source, survey, options.gradientHistogram);
   if (!comm.isRoot()) return 0;
-  const std::string text = describeFile(source->info()) + describeValues(survey) +
+  const std::string text = describeFile(source->info()) + describeValues(survey) + labelText +
                            "histogram    logarithmic\n" +
                            drawHistogram(histogram, kHistogramColumns, kHistogramRows);
   std::fputs(text.c_str(), stdout);

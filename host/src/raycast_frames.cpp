@@ -19,7 +19,8 @@ class RaycastFrames : public FrameMaker {
         maxError_{prepared.scene.quality.maxError},
         isAdaptive_{prepared.scene.quality.preintegrated},
         compositor_{comm},
-        worker_{comm, withTermination(prepared.scene), *prepared.source, options},
+        worker_{comm, withTermination(prepared.scene), *prepared.source,
+                workerOptions(prepared, options)},
         groups_{groupModes(prepared.scene)},
         merge_{merge} {}
 

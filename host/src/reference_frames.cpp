@@ -44,7 +44,8 @@ class ReferenceFrames : public FrameMaker {
         dedicatedHost_{dedicatedHost},
         threads_{node::threadShare(comm, !(dedicatedHost && comm.isRoot()))},
         report_{std::move(report)},
-        source_{*prepared.source} {
+        source_{*prepared.source},
+        labels_{prepared.labels.get()} {
     update(prepared.scene);
   }
 
@@ -54,9 +55,11 @@ class ReferenceFrames : public FrameMaker {
     const node::SurveyRequest request{gradientOperatorsNeeded(scene), laplacianNeeded(scene)};
     if (!request.gradients.empty() || request.laplacian)
       scales = node::surveyedScales(node::surveyVolume(comm_, source_, request), scene);
-    checkMemory(comm_, {static_cast<std::int64_t>(source_.info().bytes()),
+    const std::size_t labelBytes = labelsNeeded(scene) ? labels_->info().bytes() : 0;
+    checkMemory(comm_, {static_cast<std::int64_t>(source_.info().bytes() + labelBytes),
                         "the volume, whole on every rank for --reference,"});
-    collectively(comm_, "loading the volume", [&] { renderer_.emplace(scene, source_, scales); });
+    collectively(comm_, "loading the volume",
+                 [&] { renderer_.emplace(scene, source_, scales, labels_); });
   }
 
   ImageView<const Rgba> make(const Camera& camera, RankStatistics& statistics) override {
@@ -132,6 +135,7 @@ class ReferenceFrames : public FrameMaker {
   int threads_;
   ReportProgress report_;
   node::BrickSource& source_;
+  node::BrickSource* labels_;
   std::optional<node::ReferenceRenderer> renderer_;
   Image<Rgba> frame_;
 };

@@ -1,5 +1,6 @@
 #include "burin/host/scene_setup.hpp"
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 #include <utility>
@@ -8,8 +9,11 @@
 #include "burin/common/log.hpp"
 #include "burin/host/default_scene.hpp"
 #include "burin/host/shared_error.hpp"
+#include "burin/node/label_volume.hpp"
 #include "burin/node/scanned_volume.hpp"
 #include "burin/node/survey.hpp"
+#include "label_scene.hpp"
+#include "label_setup.hpp"
 
 namespace burin::host {
 
@@ -52,28 +56,52 @@ Scene readScene(const Communicator& comm, const RenderOptions& options) {
   std::string text;
   onRoot(comm, [&] { text = readText(file); });
   Scene scene = parseForAll(comm, text, file.string(), options);
+  setSceneFolder(scene, file.parent_path());
   if (!options.volume.empty()) {
     scene.volume = VolumeChoice{};
     scene.volume.file = options.volume;
-  } else if (!scene.volume.file.empty() && fs::path{scene.volume.file}.is_relative()) {
-    scene.volume.file = (file.parent_path() / scene.volume.file).lexically_normal().string();
   }
   options.raw.applyTo(scene.volume);
+  options.labels.applyTo(scene.labels);
   return scene;
 }
 
-/// The default scene goes through its own text, so that --set works on it as on any other. Its
-/// quality is the default and not in that text, so that either a step or an error can be set.
+/// A scene made for a file goes through its own text, so that --set works on it as on any other.
+/// Its quality is the default and not in that text, so that either a step or an error can be set.
+Scene parseMadeScene(const Communicator& comm, const std::string& text, const std::string& madeFor,
+                     const RenderOptions& options) {
+  RenderOptions withoutQuality = options;
+  withoutQuality.settings.insert(withoutQuality.settings.begin(), "quality=null");
+  return parseForAll(comm, text, "scene made for " + madeFor, withoutQuality);
+}
+
 Scene sceneFromVolume(const Communicator& comm, const RenderOptions& options,
                       const VolumeChoice& choice, node::BrickSource& source,
                       const VolumeFacts& facts) {
   const auto survey = node::surveyVolume(comm, source, {});
   const MaterialProfile profile = profileMaterials(comm, source, survey);
   const std::string text = writeScene(makeDefaultScene(choice, facts, profile, survey.blocks));
-  RenderOptions withoutQuality = options;
-  withoutQuality.settings.insert(withoutQuality.settings.begin(), "quality=null");
-  Scene scene = parseForAll(comm, text, "scene made for " + choice.file, withoutQuality);
+  Scene scene = parseMadeScene(comm, text, choice.file, options);
   scene.volume = choice;
+  return scene;
+}
+
+Scene sceneFromLabels(const Communicator& comm, const RenderOptions& options,
+                      const VolumeChoice& choice, const LabelVolumeChoice& labels,
+                      const PreparedScene& prepared) {
+  const auto survey = node::surveyLabels(comm, *prepared.labels);
+  std::string text;
+  onRoot(comm, [&] {
+    text = writeScene(makeLabelScene(choice, labels, prepared.facts, prepared.labelInfos, survey));
+    const auto count =
+        std::ranges::count_if(survey.voxels, [](const auto& l) { return l.first != 0; });
+    if (count > kMostLabelLayers)
+      note("{}: {} labels, of which the {} with most voxels are drawn", labels.file, count,
+           kMostLabelLayers);
+  });
+  Scene scene = parseMadeScene(comm, text, labels.file, options);
+  scene.volume = choice;
+  scene.labels = labels;
   return scene;
 }
 
@@ -94,28 +122,41 @@ PreparedScene prepareScene(const Communicator& comm, const RenderOptions& option
   const bool hasScene = !options.input.empty() && isSceneFile(options.input);
   PreparedScene prepared;
   VolumeChoice choice;
+  LabelVolumeChoice labels;
   if (hasScene) {
     prepared.scene = readScene(comm, options);
     choice = prepared.scene.volume;
+    labels = prepared.scene.labels;
   } else {
     choice.file = options.input.empty() ? options.volume : options.input;
     options.raw.applyTo(choice);
+    options.labels.applyTo(labels);
   }
   prepared.source = openTogether(comm, choice);
   const node::VolumeInfo& info = prepared.source->info();
   prepared.facts = {info.grid, info.anatomical};
-  if (!hasScene)
+  if (labels.isGiven()) openLabels(comm, labels, prepared);
+  if (!hasScene && prepared.labels)
+    prepared.scene = sceneFromLabels(comm, options, choice, labels, prepared);
+  else if (!hasScene)
     prepared.scene = sceneFromVolume(comm, options, choice, *prepared.source, prepared.facts);
+  resolveLabels(comm, prepared);
   resolveScene(prepared.scene, prepared.facts);
   return prepared;
 }
 
+node::WorkerOptions workerOptions(const PreparedScene& prepared, node::WorkerOptions options) {
+  options.labels = prepared.labels.get();
+  return options;
+}
+
 std::string sceneTextFor(const Scene& scene, const fs::path& target) {
   Scene moved = scene;
-  const fs::path file = scene.volume.file;
-  if (!file.empty() && file.is_relative()) {
-    const fs::path folder = fs::absolute(target).parent_path();
-    moved.volume.file = fs::proximate(fs::absolute(file), folder).string();
+  const fs::path folder = fs::absolute(target).parent_path();
+  for (std::string* name : {&moved.volume.file, &moved.labels.file, &moved.labels.names}) {
+    const fs::path file = *name;
+    if (!file.empty() && file.is_relative())
+      *name = fs::proximate(fs::absolute(file), folder).string();
   }
   return writeScene(moved);
 }

@@ -29,7 +29,9 @@ Session::Session(const Communicator& comm, const RenderOptions& options)
   onRoot(comm_, [&] { deferInterrupts([&] { checkOutputs(options_); }); });
   progress_.show("reading the volume");
   prepared_ = prepareScene(comm_, options_);
-  onRoot(comm_, [&] { checkConflicts(options_, prepared_.scene.volume.file); });
+  onRoot(comm_, [&] {
+    checkConflicts(options_, prepared_.scene.volume.file, prepared_.scene.labels.file);
+  });
   together(comm_, "the scene", [&] { checkTechnique(); });
   checkCameras();
   checkMemory(comm_, pictureNeed(comm_, prepared_.scene.imageSize));

@@ -14,7 +14,7 @@ constexpr std::string_view kPrefix = "Segment";
 std::optional<Colour> colourIn(std::string_view text) {
   const std::vector<std::string_view> parts = words(text);
   if (parts.size() != 3) return std::nullopt;
-  std::uint8_t channels[3];
+  std::uint8_t channels[3]{};
   for (std::size_t i = 0; i < 3; ++i) {
     const auto part = numberIn<double>(parts[i]);
     if (!part || !(*part >= 0 && *part <= 1)) return std::nullopt;

@@ -104,8 +104,8 @@ std::vector<NamedScene> benchScenes(const Communicator& comm, const RenderOption
 SceneInput::SceneInput(const Communicator& comm, NamedScene& scene, bool dedicatedHost)
     : comm_{comm},
       scene_{scene},
-      worker_{
-          comm, scene.prepared.scene, *scene.prepared.source, {.dedicatedHost = dedicatedHost}} {}
+      worker_{comm, scene.prepared.scene, *scene.prepared.source,
+              workerOptions(scene.prepared, {.dedicatedHost = dedicatedHost})} {}
 
 CompositingInput SceneInput::make(ImageSize frame) {
   scene_.prepared.scene.imageSize = frame;

@@ -29,7 +29,8 @@ class IsolatedRanks {
  public:
   IsolatedRanks(const Communicator& self, PreparedScene& prepared, int ranks)
       : camera_{resolveCamera(prepared.scene, prepared.facts)},
-        worker_{self, prepared.scene, *prepared.source, {.bricks = ranks, .views = {camera_}}},
+        worker_{self, prepared.scene, *prepared.source,
+                workerOptions(prepared, {.bricks = ranks, .views = {camera_}})},
         room_(camera_.image.pixels()) {
     const std::size_t bricks = worker_.tree().brickCount();
     if (bricks != static_cast<std::size_t>(ranks))

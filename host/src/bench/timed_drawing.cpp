@@ -9,7 +9,7 @@ TimedDrawing::TimedDrawing(const Communicator& comm, PreparedScene& prepared, co
                            const node::WorkerOptions& options)
     : comm_{comm},
       camera_{resolveCamera(scene, prepared.facts)},
-      worker_{comm, scene, *prepared.source, options},
+      worker_{comm, scene, *prepared.source, workerOptions(prepared, options)},
       room_(camera_.image.pixels()) {}
 
 double TimedDrawing::drawOnce(RankStatistics& statistics, const Scene* changed) {

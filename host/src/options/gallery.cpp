@@ -21,6 +21,7 @@ Of several: each as burin render draws it, without annotations; its title or els
 struct Gallery {
   GalleryOptions options;
   RawText raw;
+  LabelText labels;
   std::string size;
   std::string styles;
 };
@@ -48,6 +49,7 @@ GalleryOptions finished(const Gallery& gallery, int ranks) {
     fail(ExitCode::kUsage, "-o {}: expected a name that ends in .png", render.output.string());
   render.size = gallery.size.empty() ? kPanel : parseSize(gallery.size);
   render.raw = rawLayout(gallery.raw);
+  render.labels = labelOptions(gallery.labels);
   options.styles = names(gallery.styles);
   return options;
 }
@@ -67,6 +69,7 @@ Finish describeGallery(OptionList& list) {
   list.texts("--set", render.settings, "PATH=VALUE",
              "Change one key of the scene; may be repeated");
   addRawOptions(list, gallery->raw);
+  addLabelOptions(list, gallery->labels);
   list.integer("--bricks", render.worker.bricks, 1, 1 << 20,
                "Bricks in all; one per drawing rank otherwise");
   list.flag("--dedicated-host", render.worker.dedicatedHost,

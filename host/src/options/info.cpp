@@ -21,6 +21,7 @@ Finish describeInfo(OptionList& list) {
           "Draw values against gradient magnitudes (PNG), to lay a transfer function's widgets on")
       .needs("VOLUME");
   addRawOptions(list, info->raw);
+  addLabelNames(list, info->options.labelNames);
   return [info](int) {
     if (!info->options.isBuild && info->options.volume.empty())
       fail(ExitCode::kUsage, "info: expected a VOLUME, or --build");

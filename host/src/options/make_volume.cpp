@@ -13,7 +13,7 @@ namespace {
 std::string makeVolumeFooter() {
   std::string text = "KIND is one of\n";
   for (const auto& kind : node::proceduralKinds())
-    text += fmt::format("  {:<16} {}\n", kind.name, kind.help);
+    text += fmt::format("  {:<18} {}\n", kind.name, kind.help);
   return text +
          fmt::format("The format goes by the file's extension: {}\n", node::writableExtensions());
 }

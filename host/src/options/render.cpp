@@ -22,6 +22,10 @@ histogram; --save-scene writes that scene down, to be edited. Volumes are NRRD, 
   --set camera.view=anterior               --set image.background=transparent
 `burin styles` lists every style with its parameters; configs/schema.json has every key.
 
+--labels takes a segmentation of the volume (3D Slicer's .seg.nrrd and label maps, ITK-SNAP, any readable
+volume of whole numbers on the same grid): without a scene every label is drawn as a layer of its own,
+in its colour if the file or --label-names says one; in a scene, "labels" of a layer says where it is.
+
 --technique slices draws the same samples as Lum and Ma's hardware did, a plane, layer and pass at a
 time. In float it is the same picture; --precision half and byte, and quality.combine "over" (each
 draw over the one before), show what such hardware cost. Rays cannot end early: quality.termination
@@ -36,6 +40,7 @@ On many ranks start with `mpirun --bind-to none`: Open MPI otherwise binds each 
 struct Render {
   RenderOptions options;
   RawText raw;
+  LabelText labels;
   std::string size;
   std::string skip = "on";
   std::string technique = "raycast";
@@ -160,6 +165,7 @@ RenderOptions finished(const Render& render, int ranks) {
   checkOutput(options.output);
   if (!render.size.empty()) options.size = parseSize(render.size);
   options.raw = rawLayout(render.raw);
+  options.labels = labelOptions(render.labels);
   options.worker.skip = render.skip == "on";
   setTechnique(options.worker, render);
   if (render.gl == "egl") options.worker.gl = node::GlBackend::kEgl;
@@ -174,6 +180,7 @@ Finish describeRender(OptionList& list) {
   addInput(list, render->options.input);
   addPictureOptions(list, *render);
   addRawOptions(list, render->raw);
+  addLabelOptions(list, render->labels);
   addRunOptions(list, *render);
   addMergeOptions(list, *render);
   list.footer(kRenderFooter);

@@ -42,6 +42,33 @@ void RawLayout::applyTo(VolumeChoice& choice) const {
   if (series) choice.series = series;
 }
 
+void addLabelNames(OptionList& list, std::string& names) {
+  list.text("--label-names", names, "FILE", "Names and colours of labels as ITK-SNAP writes them");
+}
+
+void addLabelOptions(OptionList& list, LabelText& text) {
+  list.text("--labels", text.file, "FILE",
+            "A segmentation on the volume's grid; without a scene each label is a layer");
+  addLabelNames(list, text.names);
+  list.integer("--label-component", text.component, 0, kMostComponents,
+               "Component of labels that have several; 0 is the first");
+}
+
+LabelOptions labelOptions(const LabelText& text) {
+  LabelOptions options{text.file, text.names, {}};
+  if (text.component >= 0) options.component = text.component;
+  return options;
+}
+
+void LabelOptions::applyTo(LabelVolumeChoice& choice) const {
+  if (!file.empty()) {
+    choice = {};
+    choice.file = file;
+  }
+  if (!names.empty()) choice.names = names;
+  if (component) choice.component = component;
+}
+
 void addInput(OptionList& list, std::string& input) {
   list.text("INPUT", input, "FILE", "A scene (.json) or a volume");
 }

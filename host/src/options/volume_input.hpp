@@ -19,6 +19,17 @@ void addRawOptions(OptionList& list, RawText& text);
 /// Throws Error{kUsage} naming the option that makes no sense.
 RawLayout rawLayout(const RawText& text);
 
+/// The options of a label volume, as they were typed.
+struct LabelText {
+  std::string file, names;
+  int component = -1;  ///< none
+};
+
+void addLabelOptions(OptionList& list, LabelText& text);
+/// --label-names alone.
+void addLabelNames(OptionList& list, std::string& names);
+LabelOptions labelOptions(const LabelText& text);
+
 /// INPUT, a scene or a volume.
 void addInput(OptionList& list, std::string& input);
 /// --volume, the volume drawn with a scene.

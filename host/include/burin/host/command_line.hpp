@@ -29,6 +29,16 @@ struct RawLayout {
   void applyTo(VolumeChoice& choice) const;
 };
 
+/// --labels, --label-names, --label-component
+struct LabelOptions {
+  std::string file;   ///< relative to the working directory; "": the scene's own
+  std::string names;  ///< likewise
+  std::optional<int> component;
+
+  /// Puts what was given into `choice`; another file replaces it as a whole.
+  void applyTo(LabelVolumeChoice& choice) const;
+};
+
 /// --composite, --wire, --link, --zstd
 struct MergeOptions {
   compositor::CompositeOptions composite;
@@ -43,6 +53,7 @@ struct RenderOptions {
   std::optional<ImageSize> size;
   std::vector<std::string> settings;  ///< --set, in order
   RawLayout raw;
+  LabelOptions labels;
   node::WorkerOptions worker;
   MergeOptions merge;
   int frames = 0;  ///< 0: one picture named as given; else numbered ones
@@ -59,6 +70,7 @@ struct RenderOptions {
 struct InfoOptions {
   std::string volume;  ///< empty if isBuild
   RawLayout raw;
+  std::string labelNames;                        ///< --label-names; "": none
   bool isBuild = false;                          ///< --build: about the program instead of a volume
   std::filesystem::path gradientHistogram = {};  ///< --histogram2d; empty: none
 };

@@ -19,9 +19,10 @@ std::filesystem::path frameFile(const RenderOptions& options, int index);
 void checkOutputs(const RenderOptions& options);
 
 /// Throws Error{kUsage} if two outputs (of a sequence: its first frame) are one file, or if one
-/// overwrites the scene or the volume. --save-scene may replace the scene. `volume`: the file, ""
-/// if there is none.
-void checkConflicts(const RenderOptions& options, const std::filesystem::path& volume);
+/// overwrites the scene, the volume or the labels. --save-scene may replace the scene. `volume`,
+/// `labels`: the files, "" if there is none.
+void checkConflicts(const RenderOptions& options, const std::filesystem::path& volume,
+                    const std::filesystem::path& labels);
 
 /// What a picture of that scene in `target` says about itself.
 PictureMetadata metadataFor(const Scene& scene, const RenderOptions& options,
