@@ -7,6 +7,7 @@ burin_add_test(reference_test
   LIBRARIES burin::reference
   LABELS node sanitize)
 burin_unity(reference_test)
-# It has a kColour of its own, as others do.
-set_source_files_properties(reference_converged_test.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+# They have a kColour and a smoothField() of their own, as others do.
+set_source_files_properties(reference_converged_test.cpp reference_style_convergence_test.cpp
+  PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 target_include_directories(reference_test PRIVATE ${PROJECT_SOURCE_DIR}/node/src)
