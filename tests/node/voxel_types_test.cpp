@@ -3,11 +3,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "burin/node/procedural.hpp"
 #include "burin/node/volume_writer.hpp"
 #include "support/drawing.hpp"
 #include "support/scenes.hpp"
 #include "support/temporary_folder.hpp"
+#include "written_volumes.hpp"
 
 namespace burin::test {
 namespace {
@@ -73,6 +76,48 @@ TEST(VoxelTypes, SameTypeThroughEveryFormatIsBitIdentical) {
           << voxelTypeName(type) << " " << name;
     }
   }
+}
+
+/// The voxels that the writer of `one` was given, at the place it was told.
+ArraySource givenVolume(const WrittenVolume& one) {
+  const WrittenPlace place = placeOf(one).value();
+  const std::string content = contentOf(written().folder.path() / one.expected);
+  const auto voxels = std::as_bytes(std::span{content});
+  return {{.name = "given",
+           .format = "array",
+           .grid = place.grid,
+           .type = node::voxelTypeFromName(one.type).value(),
+           .anatomical = place.anatomical},
+          {voxels.begin(), voxels.end()}};
+}
+
+// One file of every format that a program other than ours writes (write_volumes.py).
+TEST(VoxelTypes, ForeignFilesDrawWhatTheirWritersWereGiven) {
+  const std::set<std::string> files{
+      "unu_u16_raw_big.nrrd", "unu_u16_gzip_little.nhdr", "unu_u16_ascii_little.nrrd",
+      "vtk_u16_zlib.mha",     "vtk_u16_raw.mhd",          "vtk_u16_binary.vtk",
+      "vtk_cells.vti",        "vtk_turned.vti",           "vtk_u16_base64_zlib_big.vti",
+      "imagej.tif",           "many.h5:/u16/big/gzip",    "dicom_tilted",
+      "dicom_frames.dcm"};
+  Scene look = sceneWithStyle("all");
+  look.imageSize = {48, 48};
+  for (TransferPoint& point : look.layers[0].transferFunction.points) point.value *= 65535;
+  std::size_t seen = 0;
+  for (const WrittenVolume& one : written().cases) {
+    if (!files.contains(one.file)) continue;
+    SCOPED_TRACE(one.file);
+    ArraySource given = givenVolume(one);
+    const auto file = node::openVolume(choiceOf(one));
+    const Scene scene = resolved(look, given);
+    const Camera camera = resolveCamera(scene, {given.info().grid, given.info().anatomical});
+    const Image<Rgba> truth = drawAlone(scene, given, camera);
+    EXPECT_GT(largestAlpha(truth), 0.1);
+    // Positions in the file have six digits or more: 1e-5 of a voxel, and of a pixel here.
+    EXPECT_LE(difference(truth, drawAlone(scene, *file, camera)).rms, 1e-5);
+    ++seen;
+  }
+  if (seen == 0) return skipIfWritersAreMissing();
+  EXPECT_EQ(seen, files.size());
 }
 
 }  // namespace
