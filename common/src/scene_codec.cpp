@@ -279,6 +279,12 @@ void checkKeys(const At& at, const std::vector<std::string_view>& known) {
   }
 }
 
+void forbid(const At& at, std::string_view key, std::string_view why) {
+  if (const Node* found = at.node.find(key)) {
+    At::failAt(found->where, json::childPath(at.path, key), why);
+  }
+}
+
 void checkList(const At& at, std::size_t minimum, std::size_t maximum) {
   const std::size_t count = at.node.items.size();
   if (at.node.kind == Node::Kind::kList && count >= minimum && count <= maximum) return;

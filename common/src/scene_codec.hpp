@@ -119,6 +119,8 @@ using Fields = std::vector<Field<T>>;
 
 /// Throws unless the value is an object with known keys only.
 void checkKeys(const At& at, const std::vector<std::string_view>& known);
+/// Throws if the object has that key.
+void forbid(const At& at, std::string_view key, std::string_view why);
 /// Throws unless the value is a list with `minimum` to `maximum` items.
 void checkList(const At& at, std::size_t minimum, std::size_t maximum);
 Document objectSchema();

@@ -12,12 +12,6 @@ namespace {
 
 constexpr std::size_t kMost = static_cast<std::size_t>(kMostListed);
 
-void forbid(const At& at, std::string_view key, std::string_view why) {
-  if (const Node* found = at.node.find(key)) {
-    At::failAt(found->where, json::childPath(at.path, key), why);
-  }
-}
-
 /// Of the volume, or of the label volume beside it.
 void checkVolume(const At& at, const VolumeChoice& volume) {
   if (volume.file.empty() == volume.procedural.empty()) {

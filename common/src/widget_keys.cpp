@@ -30,21 +30,13 @@ Codec<WidgetShape> shapeCodec() {
           text.schema};
 }
 
-/// Fails at a key that the widget's shape does not have.
-void forbidKey(const At& at, std::string_view key, std::string_view why) {
-  if (const Node* found = at.node.find(key))
-    At::failAt(found->where, json::childPath(at.path, key), why);
-}
-
 void checkWidget(const At& at, const TransferWidget& widget) {
-  if (widget.shape != WidgetShape::kTriangle) forbidKey(at, "apex", "only a triangle has an apex");
+  if (widget.shape != WidgetShape::kTriangle) forbid(at, "apex", "only a triangle has an apex");
   if (widget.shape == WidgetShape::kEllipse) {
     for (const char* key : {"value_falloff", "gradient_falloff"})
-      forbidKey(at, key, "an ellipse falls off from its middle: only other shapes have this");
+      forbid(at, key, "an ellipse falls off from its middle: only other shapes have this");
   } else if (widget.gradient.x < 0 || widget.gradient.y > 1) {
-    const Node& written = *at.node.find("gradient");
-    At::failAt(written.where, json::childPath(at.path, "gradient"),
-               "expected numbers in [0, 1]; only an ellipse may reach beyond");
+    forbid(at, "gradient", "expected numbers in [0, 1]; only an ellipse may reach beyond");
   }
 }
 
