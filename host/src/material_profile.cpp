@@ -113,7 +113,8 @@ MaterialProfile profileMaterials(const Communicator& comm, node::BrickSource& so
   profile.squareSums.resize(profile.histogram.counts.size());
   profile.magnitudeCounts.resize(kMagnitudeBins);
 
-  forVoxelDifferences(comm, source, VoxelProfiler{info.grid, range, profile});
+  forVoxelDifferences(comm, source, strideFor(info.grid.dims, atMost),
+                      VoxelProfiler{info.grid, range, profile});
   for (auto* sums : {&profile.histogram.counts, &profile.gradientSums, &profile.squareSums,
                      &profile.magnitudeCounts})
     allReduce(comm, std::span{*sums}, MPI_SUM);

@@ -235,10 +235,10 @@ class LayerCode {
     const std::string colour = byGradient ? "widgetColour" : colourOf(number, ownLines);
     const bool fromPalette = palettesBefore_ && gradientNeededBy(layer);
     if (fromPalette) addStylePalette(i, layer);
-    body_ += fmt::format(fromPalette
-                             ? "    Shading s = styled({}, extinction{}, palette);\n"
-                             : "    Shading s = Shading({}, extinction{}, vec3(0.0), 0.0, 1.0);\n",
-                         colour, number);
+    const std::string plain = fmt::format("{}, extinction{}", colour, number);
+    body_ += fmt::format("    Shading s = {};\n",
+                         fromPalette ? fmt::format("styled({}, palette)", plain)
+                                     : fmt::format("Shading({}, vec3(0.0), 0.0, 1.0)", plain));
     if (gradientNeededBy(layer) && !fromPalette) addSurface(i, layer, magnitude);
     addStyles(i, layer,
               [&](const StyleSpec& style) { return !fromPalette || !style.needsGradient; });
