@@ -13,7 +13,7 @@ namespace burin::host {
 namespace {
 
 /// Optical depth of a cube of a label's volume.
-constexpr double kDepth = 1.5;
+constexpr double kDepth = 3;
 
 struct LabelShare {
   int label;
