@@ -97,7 +97,7 @@ TEST(SegmentedVolumes, SayTheirSegments) {
   const LabelInfo liver{5, "liver", Colour{221, 130, 101}, 0};
   const LabelInfo kidney{2, "left \"kidney\"", Colour{128, 255, 0}, 1};
   for (const char* file : {"unu_one.seg.nrrd", "unu_two.seg.nrrd"}) {
-    if (!fs::exists(written().folder / file)) return skipIfWritersAreMissing();
+    if (!std::filesystem::exists(written().folder / file)) return skipIfWritersAreMissing();
     VolumeChoice choice = fileChoice(written().folder / file);
     choice.component = 0;
     EXPECT_THAT(node::openVolume(choice)->info().labels, testing::ElementsAre(liver, kidney));
