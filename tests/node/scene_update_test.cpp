@@ -146,7 +146,7 @@ TEST_P(SceneUpdateBy, TilesWithStepsOfTheirOwnAreTheTilesOfWholeFrames) {
           return std::span{pixels};
         },
         &steps);
-    return wholeFrame({view.frame, view.active, pixels});
+    return wholeFrame(compositor::Subimage<Rgba>{view.frame, view.active, pixels});
   };
   constexpr int kSide = 16;
   const Image<Rgba> coarse = draw({camera.image, kSide, 2});
