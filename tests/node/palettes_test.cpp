@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <ranges>
 #include <vector>
 
 #include "direction_palette.hpp"
@@ -125,7 +126,9 @@ Image<Rgba> drawSlices(const Scene& scene, node::BrickSource& source,
 TEST(Palettes, GradientsPointInTheNearestDirection) {
   const Directions all = splitPentakisDodecahedron();
   const VolumeGrid grid = gridOf({8, 8, 8});
-  for (const glm::dvec3& rise : spiral(12)) {
+  // The spiral's first direction lies in a mirror, where two of all are as near and rounding
+  // chooses one for each voxel: what lies between these two is right there.
+  for (const glm::dvec3& rise : spiral(12) | std::views::drop(1)) {
     ArraySource source{
         grid, [&](glm::ivec3 i) {
           return static_cast<float>(0.5 + 0.07 * glm::dot(rise, glm::dvec3{i} - 3.5));
