@@ -176,7 +176,9 @@ class Gallery {
   /// A volume is loaded for its first panel; the others change what they must.
   void showScene() {
     if (frames_) return frames_->update(prepared_.scene);
-    frames_ = makeRaycastFrames(comm_, prepared_, options_.render.worker, options_.render.merge);
+    node::WorkerOptions worker = options_.render.worker;
+    worker.views = {resolveCamera(prepared_.scene, prepared_.facts)};
+    frames_ = makeRaycastFrames(comm_, prepared_, worker, options_.render.merge);
   }
 
   void write() const {
