@@ -21,14 +21,24 @@ namespace burin::node {
 namespace {
 
 /// The decoders of this process. Colours stay as they are stored, a pixel's components together.
-void registerDecoders() {
-  static const bool areRegistered = [] {
+class Decoders {
+ public:
+  Decoders() {
     DcmRLEDecoderRegistration::registerCodecs();
     DJDecoderRegistration::registerCodecs(EDC_never, EUC_default, EPC_colorByPixel);
     DJLSDecoderRegistration::registerCodecs(EJLSUC_default, EJLSPC_colorByPixel);
-    return true;
-  }();
-  static_cast<void>(areRegistered);
+  }
+  ~Decoders() {
+    DJLSDecoderRegistration::cleanup();
+    DJDecoderRegistration::cleanup();
+    DcmRLEDecoderRegistration::cleanup();
+  }
+  Decoders(const Decoders&) = delete;
+  Decoders& operator=(const Decoders&) = delete;
+};
+
+void registerDecoders() {
+  static const Decoders decoders;
 }
 
 [[noreturn]] void failPixels(const DicomImage& image, const std::string& reason) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstdlib>
 #include <memory>
 #include <string>
 
@@ -53,10 +54,43 @@ void checkCandidates(const fs::path& file) {
   }
 }
 
+/// What the library would say about on stderr whatever it is told. `header`: nifti_1_header or
+/// nifti_2_header.
+template <typename Header>
+void checkHeader(const std::string& file, const Header& header) {
+  if (header.dim[0] < 1 || header.dim[0] > 7 || header.dim[1] < 1) {
+    fail(ExitCode::kVolume, "{}: dim is {}, {} ... (expected 1 to 7 dimensions of at least 1)",
+         file, header.dim[0], header.dim[1]);
+  }
+  if (header.datatype <= DT_BINARY || nifti_is_valid_datatype(header.datatype) == 0) {
+    fail(ExitCode::kVolume, "{}: voxel type {} is not supported (expected {})", file,
+         header.datatype, supportedTypeNames());
+  }
+}
+
+template <typename Header>
+void checkOwned(const std::string& file, Header* header) {
+  const std::unique_ptr<Header, decltype(&std::free)> owned{header, &std::free};
+  if (owned == nullptr) fail(ExitCode::kVolume, "{}: not a valid NIfTI header", file);
+  checkHeader(file, *owned);
+}
+
+/// In the bytes' own order: only the readers of one version turn them. Older headers (ANALYZE) are
+/// left to the library.
+void checkHeader(const std::string& file) {
+  const std::string name = headerName(file);
+  int version = 0;
+  std::free(nifti_read_header(name.c_str(), &version, 0));
+  int isSwapped = 0;
+  if (version == 1) checkOwned(file, nifti_read_n1_hdr(name.c_str(), &isSwapped, 0));
+  if (version == 2) checkOwned(file, nifti_read_n2_hdr(name.c_str(), &isSwapped, 0));
+}
+
 ImagePointer readHeader(const std::string& file) {
   regularFileSize(headerName(file));
   checkCandidates(file);
   nifti_set_debug_level(0);  // its messages go to stderr; ours say what it would
+  checkHeader(file);
   ImagePointer image{nifti_image_read(headerName(file).c_str(), 0)};
   if (image == nullptr) fail(ExitCode::kVolume, "{}: not a valid NIfTI header", file);
   return image;

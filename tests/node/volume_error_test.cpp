@@ -172,6 +172,21 @@ TEST_F(VolumeErrors, TruncatedRawFiles) {
               {"truncated", "415 bytes found, 416 expected"});
 }
 
+// The library writes about these on stderr, whatever it is told.
+TEST_F(VolumeErrors, NiftiHeadersGetOneLine) {
+  NiftiBytes unknownType;
+  unknownType.datatype = 3;
+  NiftiBytes tooMany;
+  tooMany.dim[0] = 9;
+  NiftiBytes empty;
+  empty.dim[1] = 0;
+  testing::internal::CaptureStderr();
+  expectError("type.nii", unknownType.bytes(false) + "v", {"voxel type 3", "expected u8"});
+  expectError("many.nii", tooMany.bytes(false) + "v", {"dim is 9", "expected 1 to 7"});
+  expectError("none.nii", empty.bytes(false) + "v", {"dim is 3, 0"});
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
 TEST_F(VolumeErrors, Gzip) {
   const std::string voxels = encoded(sampleVoxels<std::uint8_t>(1000), false);
   const std::string stream = gzipped(voxels);
