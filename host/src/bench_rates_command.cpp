@@ -9,6 +9,7 @@
 #include "bench/rate_measurement.hpp"
 #include "bench/rate_table.hpp"
 #include "bench/scaling_scenes.hpp"
+#include "bench/single_image_scene.hpp"
 #include "burin/common/error.hpp"
 #include "burin/host/commands.hpp"
 #include "burin/host/shared_error.hpp"
@@ -33,7 +34,7 @@ NamedScene head(int side) {
 NamedScene opened(const Communicator& comm, const std::string& input) {
   RenderOptions what;
   what.input = input;
-  NamedScene named{tableName(input), prepareScene(comm, what)};
+  NamedScene named{tableName(input), prepareSingleImage(comm, what)};
   together(comm, "the scene", [&] {
     if (named.prepared.scene.quality.maxError)
       fail(ExitCode::kUsage,

@@ -13,6 +13,7 @@
 #include "bench/scaling_measurement.hpp"
 #include "bench/scaling_scenes.hpp"
 #include "bench/scaling_table.hpp"
+#include "bench/single_image_scene.hpp"
 #include "burin/common/log.hpp"
 #include "burin/host/commands.hpp"
 #include "burin/host/shared_error.hpp"
@@ -48,7 +49,7 @@ NamedInput strongInput(const Communicator& comm, const BenchScalingOptions& opti
     what.input = options.input;
     what.volume = options.volume;
     input.name = tableName(options.input.empty() ? options.volume : options.input);
-    input.prepared = prepareScene(comm, what);
+    input.prepared = prepareSingleImage(comm, what);
   }
   return input;
 }

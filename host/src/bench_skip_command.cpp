@@ -6,6 +6,7 @@
 
 #include "bench/bench_output.hpp"
 #include "bench/output_folder.hpp"
+#include "bench/single_image_scene.hpp"
 #include "bench/skip_measurement.hpp"
 #include "bench/skip_scenes.hpp"
 #include "bench/skip_table.hpp"
@@ -46,7 +47,7 @@ class SkipBench {
     RenderOptions what;
     what.input = options_.input;
     what.volume = options_.volume;
-    auto prepared = prepareScene(comm_, what);
+    auto prepared = prepareSingleImage(comm_, what);
     measure(tableName(options_.input.empty() ? options_.volume : options_.input), prepared,
             nullptr);
   }

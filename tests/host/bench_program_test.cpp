@@ -204,6 +204,22 @@ TEST(BenchRates, FixedStepsOnly) {
   EXPECT_THAT(test::onlyLine(run.err), HasSubstr("max_error"));
 }
 
+// They are images of their own, of which those that draw by themselves would take the first alone.
+TEST(BenchPrograms, RefuseProjections) {
+  const TemporaryFolder folder;
+  std::ofstream{folder / "s.json"} << R"({ "schema_version": 1,
+    "volume": { "procedural": "shells", "dims": [8, 8, 8] },
+    "layers": [{ "mode": "mip", "transfer_function": { "points": [
+      { "value": 0.1, "color": "#fff", "opacity": 1 }] } }] })";
+  for (const char* bench : {"compositing", "skip", "scaling", "rates"}) {
+    SCOPED_TRACE(bench);
+    const auto run =
+        runBurin({"bench", bench, folder / "s.json", "--quick", "--out", folder / "out"}, 2);
+    EXPECT_EQ(run.exitCode, 2);
+    EXPECT_THAT(test::onlyLine(run.err), HasSubstr("not projections"));
+  }
+}
+
 TEST(BenchAccuracy, WritesATableWhoseErrorsFallWithTheStep) {
   const TemporaryFolder folder;
   const std::string scene = folder / "ramp.json";

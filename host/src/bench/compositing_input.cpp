@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "bench/output_folder.hpp"
+#include "bench/single_image_scene.hpp"
 #include "bench/trim.hpp"
 #include "burin/common/error.hpp"
 #include "burin/compositor/pixel_algebra.hpp"
@@ -96,7 +97,7 @@ std::vector<NamedScene> benchScenes(const Communicator& comm, const RenderOption
     scenes.push_back(builtInScene(comm, "ct-phantom", kCtPhantom));
   } else {
     const std::filesystem::path file = options.input.empty() ? options.volume : options.input;
-    scenes.push_back({inputName(file), prepareScene(comm, options)});
+    scenes.push_back({inputName(file), prepareSingleImage(comm, options)});
   }
   return scenes;
 }
