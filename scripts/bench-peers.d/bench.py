@@ -17,8 +17,9 @@ import report
 
 HERE = pathlib.Path(__file__).parent
 STYLES = ("plain", "shaded")
-EQUAL_STEP = 1.0  # in smallest spacings, for every program
-BURIN_STEPS = (0.5, 1.0, 2.0, 3.0, 4.0)
+# What burin may choose from, besides the equal step without pre-integration.
+BURIN_STEPS = (0.5, 0.75, 1.5, 2.0)
+BURIN_PREINTEGRATED_STEPS = (0.5, 1.0, 2.0, 3.0)
 # Steps at which a picture counts as converged; VTK's fixed-point mapper moves away
 # from the integral again below 1/4 (measured on foot and wavelet).
 CONVERGED = {"burin": 1 / 16, "vtk-gpu": 1 / 8, "vtk-cpu": 1 / 4, "paraview": 1 / 8}
@@ -127,12 +128,13 @@ def draw(tools, case, contender, jobs, frames):
 
 
 def jobs_of(contender):
-    jobs = [Job(style, EQUAL_STEP) for style in STYLES]
+    jobs = [Job(style, report.EQUAL_STEP) for style in STYLES]
     if contender.program == "burin":
-        steps = BURIN_STEPS
-        if contender.ranks == 1:  # as small as the error of vtk-cpu
-            steps = (0.25, *steps)
-        jobs += [Job(style, step, True) for style in STYLES for step in steps]
+        # As small as the error of vtk-cpu, which draws on one rank.
+        small = (0.25,) if contender.ranks == 1 else ()
+        jobs += [Job(style, step) for style in STYLES for step in (*small, *BURIN_STEPS)]
+        jobs += [Job(style, step, True) for style in STYLES
+                 for step in (*small, *BURIN_PREINTEGRATED_STEPS)]
     return jobs
 
 

@@ -10,6 +10,7 @@ COLUMNS = ("program,volume,style,ranks,size,step_voxels,median_ms,error_max,rati
            "error_rms,preintegrated,burin_ms,burin_step,burin_rms_ms,burin_rms_step,"
            "burin_equal_step_ms,smallest_ms,largest_ms,float_max,float_rms,"
            "to_burin_max,to_burin_rms").split(",")
+EQUAL_STEP = 1.0  # in smallest spacings, for every program
 KEYS = {"error_max": "", "error_rms": "rms_"}
 
 
@@ -21,7 +22,9 @@ def fastest(rows, row, error):
 
 
 def equal_step(rows, row):
+    """burin's row without pre-integration at the step that every program draws with."""
     return next((r for r in rows if r["program"] == "burin" and not r["preintegrated"] and
+                 r["step_voxels"] == EQUAL_STEP and
                  all(r[k] == row[k] for k in ("volume", "style", "ranks", "size"))), None)
 
 
