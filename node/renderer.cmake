@@ -12,10 +12,10 @@ add_library(burin_gl_loader STATIC ${glad_dir}/src/gl.c)
 target_include_directories(burin_gl_loader PUBLIC $<BUILD_INTERFACE:${glad_dir}/include>)
 
 set(shader_files
-  fullscreen.vert lattice.glsl ownership.glsl opacity.glsl volume.glsl neighbourhood.glsl
+  fullscreen.vert lattice.glsl ownership.glsl counters.glsl opacity.glsl volume.glsl neighbourhood.glsl
   direction_palette.glsl voxels.glsl palettes.glsl halo.glsl
   skip.glsl preintegration.glsl widgets.glsl sides.glsl shading.glsl caps.glsl position.glsl laplacian.glsl labels.glsl adaptive.glsl
-  cells.glsl halving.glsl exact.glsl surfaces.glsl surface_march.glsl projection.glsl raycast.glsl slice.glsl resolve.glsl
+  cells.glsl halving.glsl exact.glsl surfaces.glsl surface_march.glsl projection.glsl march.glsl raycast.glsl slice.glsl resolve.glsl
   styles/surface.glsl styles/boundary.glsl styles/silhouette.glsl styles/fade.glsl styles/light.glsl
   styles/tone.glsl styles/toon.glsl styles/depth.glsl styles/laplacian.glsl styles/halo.glsl styles/edges.glsl
   styles/specular.glsl styles/line_surface.glsl)
@@ -30,7 +30,7 @@ add_custom_command(
 
 burin_library(node
   SOURCES src/gl.cpp src/osmesa_context.cpp src/egl_context.cpp src/offscreen_context.cpp
-          src/thread_share.cpp src/shader_source.cpp
+          src/thread_share.cpp src/shader_conditions.cpp src/shader_source.cpp
            src/gl_program.cpp src/curve_code.cpp src/widget_code.cpp src/direction_palette.cpp src/program_generator.cpp
            src/transfer_integral.cpp src/transfer_table.cpp
           src/visible_values.cpp src/value_scale.cpp src/value_ranges.cpp src/clip_planes.cpp

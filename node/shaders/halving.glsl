@@ -24,20 +24,10 @@ float doubt(Side front, Side middle, Side back, float world) {
 
 void main() {
   result = vec4(0.0);
-  float sufficient = sufficientOpacity();
-  if (sufficient <= 0.0) return;
-  Ray ray = pixelRay();
+  Ray ray;
   int j, last;
-  if (!ownedSegments(ray, j, last)) return;
-
-  uint visited = 0u, shaded = 0u, inOccupied = 0u, leaps = 0u;
-  SkipState skip = beginSkipping(ray, j);
-  prepareVolume();
-  prepareLights();
-  prepareLayers();
-  vec3 coordinateOrigin = textureCoordinate(ray.origin);
-  vec3 coordinateAlong = ray.along * texelSize;
-  vec3 toEye = directionToEye();
+  SkipState skip;
+  if (!beginMarch(ray, j, last, skip)) return;
   vec4 sum = vec4(0.0);
   Side front;
   front.value = front.valid = 0.0;
@@ -109,10 +99,5 @@ void main() {
     last = sum.a > sufficient ? j - 1 : last;
   }
   result = sum;
-#ifdef COUNT_SAMPLES
-  atomicAdd(counters.visited, visited);
-  atomicAdd(counters.shaded, shaded);
-  atomicAdd(counters.inOccupied, inOccupied);
-  atomicAdd(counters.leaps, leaps);
-#endif
+  addToCounters();
 }

@@ -12,7 +12,7 @@ uniform float nearPlane;           // smallest allowed j: the eye's own plane, o
 uniform float stepWorld;           // world distance of planes
 uniform float pixelSlope;          // perspective: pixel size at depth 1; orthographic: 0
 uniform vec3 boxLo, boxHi;         // the volume's box
-#if CLIP_PLANES > 0
+#ifdef CLIP_PLANES
 uniform vec4 clipPlane[CLIP_PLANES];  // keeps dot(xyz, p) + w >= 0
 #endif
 
@@ -54,7 +54,7 @@ Ray pixelRay() {
   precise vec3 direction = along + f.x * alongX + f.y * alongY;
   precise vec2 interval = boxInterval(origin, direction, boxLo, boxHi);
   interval.x = max(interval.x, nearPlane);
-#if CLIP_PLANES > 0
+#ifdef CLIP_PLANES
   for (int i = 0; i < CLIP_PLANES; ++i) {
     precise float height = dot(clipPlane[i].xyz, origin) + clipPlane[i].w;
     precise float rise = dot(clipPlane[i].xyz, direction);

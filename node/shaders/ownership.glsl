@@ -1,4 +1,4 @@
-// Which samples are this brick's, and the counters of samples. A sample has exactly one owner, because
+// Which samples are this brick's. A sample has exactly one owner, because
 // every brick decides by the same numbers on the same position (lattice.glsl).
 
 uniform vec3 brickLo, brickHi;   // owns samples lo <= p < hi; +-1e30 at the volume's own faces
@@ -19,7 +19,3 @@ bool ownedSegments(Ray ray, out int first, out int last) {
   while (last > first && !owned(samplePosition(ray, last))) --last;
   return true;
 }
-
-#ifdef COUNT_SAMPLES
-layout(std430, binding = 0) buffer Counters { uint visited, shaded, inOccupied, leaps; } counters;
-#endif

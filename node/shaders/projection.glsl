@@ -36,7 +36,6 @@ void main() {
   int j, last;
   if (!ownedSegments(ray, j, last)) return;
 
-  uint visited = 0u, shaded = 0u, inOccupied = 0u, leaps = 0u;
   SkipState skip = beginSkipping(ray, j);
   while (j <= last) {
     int before = j;
@@ -65,10 +64,5 @@ void main() {
 #else
   result = largest;
 #endif
-#ifdef COUNT_SAMPLES
-  atomicAdd(counters.visited, visited);
-  atomicAdd(counters.shaded, shaded);
-  atomicAdd(counters.inOccupied, inOccupied);
-  atomicAdd(counters.leaps, leaps);
-#endif
+  addToCounters();
 }

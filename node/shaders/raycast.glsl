@@ -21,6 +21,7 @@ float sufficientOpacity() {
 #endif
 }
 
+#include "march.glsl"
 #ifdef ADAPTIVE
 #include "adaptive.glsl"
 #elif defined(SURFACES)
@@ -28,23 +29,10 @@ float sufficientOpacity() {
 #else
 void main() {
   result = vec4(0.0);
-  float sufficient = sufficientOpacity();
-  if (sufficient <= 0.0) return;
-  Ray ray = pixelRay();
+  Ray ray;
   int j, last;
-  if (!ownedSegments(ray, j, last)) return;
-
-  // The driver moves nothing out of loops, evaluates both sides of every branch and the body of every
-  // loop at least once. So what the loop needs is computed here, it has no loops inside, and each
-  // round looks at the macrocell of the next segment and up the volume once.
-  uint visited = 0u, shaded = 0u, inOccupied = 0u, leaps = 0u;
-  SkipState skip = beginSkipping(ray, j);
-  prepareVolume();
-  prepareLights();
-  prepareLayers();
-  vec3 coordinateOrigin = textureCoordinate(ray.origin);
-  vec3 coordinateAlong = ray.along * texelSize;
-  vec3 toEye = directionToEye();
+  SkipState skip;
+  if (!beginMarch(ray, j, last, skip)) return;
   vec4 sum = vec4(0.0);
 #ifdef PREINTEGRATED
   Side front;
@@ -109,11 +97,6 @@ void main() {
     last = sum.a > sufficient ? j - 1 : last;
   }
   result = sum;
-#ifdef COUNT_SAMPLES
-  atomicAdd(counters.visited, visited);
-  atomicAdd(counters.shaded, shaded);
-  atomicAdd(counters.inOccupied, inOccupied);
-  atomicAdd(counters.leaps, leaps);
-#endif
+  addToCounters();
 }
 #endif

@@ -80,11 +80,10 @@ void main() {
   result = vec4(colour * opacity, opacity);
 #endif
 #ifdef COUNT_SAMPLES
-  if (mine) {
-    atomicAdd(counters.visited, uint(sampled));
-    atomicAdd(counters.shaded, uint(visible));
-    atomicAdd(counters.inOccupied, uint(sampled && isOccupied(skip, 0.5 * (begin + end))));
-    atomicAdd(counters.leaps, uint(!sampled));
-  }
+  visited = uint(sampled);
+  shaded = uint(visible);
+  inOccupied = uint(sampled && isOccupied(skip, 0.5 * (begin + end)));
+  leaps = uint(mine && !sampled);
 #endif
+  if (mine) addToCounters();
 }

@@ -19,21 +19,11 @@ const int kSurface = 3;  // there: the surface
 
 void main() {
   result = vec4(0.0);
-  float sufficient = sufficientOpacity();
-  if (sufficient <= 0.0) return;
-  Ray ray = pixelRay();
+  Ray ray;
   int j, last;
-  if (!ownedSegments(ray, j, last)) return;
-
-  uint visited = 0u, shaded = 0u, inOccupied = 0u, leaps = 0u;
-  SkipState skip = beginSkipping(ray, j);
-  prepareVolume();
-  prepareLights();
-  prepareLayers();
+  SkipState skip;
+  if (!beginMarch(ray, j, last, skip)) return;
   prepareSurfaces();
-  vec3 coordinateOrigin = textureCoordinate(ray.origin);
-  vec3 coordinateAlong = ray.along * texelSize;
-  vec3 toEye = directionToEye();
   vec4 sum = vec4(0.0);
   int firstOwned = j, lastOwned = last;
   precise vec3 entry = ray.origin + segmentBegin(ray, j) * ray.along;
@@ -169,10 +159,5 @@ void main() {
     last = sum.a > sufficient ? j - 1 : last;
   }
   result = sum;
-#ifdef COUNT_SAMPLES
-  atomicAdd(counters.visited, visited);
-  atomicAdd(counters.shaded, shaded);
-  atomicAdd(counters.inOccupied, inOccupied);
-  atomicAdd(counters.leaps, leaps);
-#endif
+  addToCounters();
 }

@@ -592,12 +592,16 @@ bool isAdaptive(const Quality& quality) {
 
 namespace {
 
+std::string defineClipPlanes(const Scene& scene) {
+  const std::size_t planes = clipPlanes(scene).size();
+  return planes > 0 ? fmt::format("#define CLIP_PLANES {}\n", planes) : "";
+}
+
 /// Everything before the main function.
 std::string programHead(const Scene& scene, const ProgramOptions& options,
                         std::optional<LayerPass> pass) {
   std::string text = "#version 450 core\n";
-  text += fmt::format("#define LIGHTS {}\n#define CLIP_PLANES {}\n", scene.lights.size(),
-                      clipPlanes(scene).size());
+  text += fmt::format("#define LIGHTS {}\n", scene.lights.size()) + defineClipPlanes(scene);
   const std::size_t caps = cappedPlanes(scene).size();
   if (caps > 0) text += fmt::format("#define CAPS {}\n", caps);
   if (options.invalidVoxels) text += "#define INVALID_VOXELS\n";
@@ -617,8 +621,8 @@ std::string programHead(const Scene& scene, const ProgramOptions& options,
   const bool atVoxels = palettesBefore || quantisesNormals(scene);
   if (atVoxels) text += "#define AT_VOXELS\n";
   if (palettesBefore) text += "#define PALETTES_BEFORE\n";
-  for (const char* file : {"lattice.glsl", "ownership.glsl", "opacity.glsl", "volume.glsl",
-                           "skip.glsl", "shading.glsl"})
+  for (const char* file : {"lattice.glsl", "ownership.glsl", "counters.glsl", "opacity.glsl",
+                           "volume.glsl", "skip.glsl", "shading.glsl"})
     text += fmt::format("#include \"{}\"\n", file);
   if (atVoxels) text += "#include \"voxels.glsl\"\n";
   if (quantisesNormals(scene)) text += "#include \"direction_palette.glsl\"\n";
@@ -644,13 +648,12 @@ ShaderSource generateRaycastProgram(const Scene& scene, const ProgramOptions& op
 
 ShaderSource generateProjectionProgram(const Scene& scene, const ProgramOptions& options) {
   BURIN_CHECK_EQ(scene.layers.size(), 1u);
-  std::string text =
-      fmt::format("#version 450 core\n#define CLIP_PLANES {}\n", clipPlanes(scene).size());
+  std::string text = "#version 450 core\n" + defineClipPlanes(scene);
   if (options.invalidVoxels) text += "#define INVALID_VOXELS\n";
   if (options.countSamples) text += "#define COUNT_SAMPLES\n";
   if (scene.layers.front().mode == LayerMode::kAverage) text += "#define MEAN\n";
-  for (const char* file : {"lattice.glsl", "ownership.glsl", "volume.glsl", "exact.glsl",
-                           "skip.glsl", "projection.glsl"})
+  for (const char* file : {"lattice.glsl", "ownership.glsl", "counters.glsl", "volume.glsl",
+                           "exact.glsl", "skip.glsl", "projection.glsl"})
     text += fmt::format("#include \"{}\"\n", file);
   return expandIncludes(text, "projection program");
 }

@@ -14,17 +14,25 @@ struct EmbeddedShader {
 };
 std::span<const EmbeddedShader> embeddedShaders();
 
-/// GLSL with every `#include "path"` replaced by the file (each file once), and enough `#line`
-/// directives that a compile error names file and line.
+/// GLSL with every `#include "path"` replaced by the file (each file once), without comments and
+/// what its conditions leave out (ShaderConditions): what a program does not use is not in its
+/// text.
 struct ShaderSource {
+  /// Where a line of the text stands.
+  struct Place {
+    std::size_t file;  ///< of `files`
+    int line;          ///< from 1
+  };
   std::string text;
-  std::vector<std::string> files;  ///< by GLSL source-string number
+  std::vector<Place> lines;  ///< of the text
+  std::vector<std::string> files;
 };
 
-/// Expands `text`, known as `name` in messages. BURIN_CHECKs that included files exist.
+/// Expands `text`, known as `name` in messages. BURIN_CHECKs that included files exist and that
+/// conditions are complete.
 ShaderSource expandIncludes(std::string_view text, std::string_view name);
 
-/// A compiler log with source-string numbers replaced by file names: "tone.glsl:12: …".
+/// A compiler log with the text's lines replaced by files and theirs: "tone.glsl:12(4): …".
 std::string namedLog(std::string_view log, const ShaderSource& source);
 
 }  // namespace burin::node

@@ -3,6 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <regex>
+#include <set>
+
 #include "burin/common/error.hpp"
 #include "burin/node/offscreen_context.hpp"
 #include "gl_program.hpp"
@@ -12,6 +16,7 @@ namespace burin::node {
 namespace {
 
 using test::sceneWithStyle;
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -24,6 +29,58 @@ TEST(ProgramGenerator, HoldsOnlyWhatTheSceneUses) {
   EXPECT_THAT(tone, Not(HasSubstr("apply_edges")));
   for (const char* other : {"Neighbourhood", "cap", "laplacian"})
     EXPECT_THAT(tone, Not(HasSubstr(other))) << other;
+}
+
+/// What the expression's last group matches in a program's text.
+std::set<std::string> matchesIn(std::string_view text, const std::regex& expression) {
+  using Matches = std::regex_iterator<std::string_view::const_iterator>;
+  std::set<std::string> found;
+  for (Matches match{text.begin(), text.end(), expression}; match != Matches{}; ++match)
+    found.insert((*match)[match->size() - 1].str());
+  return found;
+}
+
+/// The names that GLSL declares outside of functions: of several in one statement the first.
+std::set<std::string> declaredNames(std::string_view text) {
+  static const std::regex kDeclaration{R"((?:^|\n)(?:uniform |const )?\w+ (\w+))"};
+  return matchesIn(text, kDeclaration);
+}
+
+TEST(ProgramGenerator, FilesThatAreNotUsedLeaveNoWord) {
+  std::size_t absent = 0;
+  for (const std::string& style : test::drawnStyles()) {
+    const ShaderSource source = generateRaycastProgram(sceneWithStyle(style), {});
+    EXPECT_THAT(source.text, AllOf(Not(HasSubstr("#if")), Not(HasSubstr("//")))) << style;
+    const std::set<std::string> words = matchesIn(source.text, std::regex{R"(\w+)"});
+    const std::set<std::string> own = declaredNames(source.text);
+    for (const EmbeddedShader& file : embeddedShaders()) {
+      if (std::ranges::find(source.files, file.path) != source.files.end()) continue;
+      for (const std::string& name : declaredNames(file.text)) {
+        if (own.contains(name)) continue;  // main() and the like, each file's own
+        ++absent;
+        EXPECT_FALSE(words.contains(name)) << style << ": " << name << " of " << file.path;
+      }
+    }
+  }
+  EXPECT_GT(absent, 50 * test::drawnStyles().size()) << "names are found at all";
+}
+
+TEST(ProgramGenerator, TexturesAreThoseThatTheSceneNeeds) {
+  static const std::regex kSampler{R"(uniform \w*sampler\w+ (\w+))"};
+  const auto samplers = [](const Scene& scene) {
+    return matchesIn(generateRaycastProgram(scene, {}).text, kSampler);
+  };
+  for (const std::string& style : test::drawnStyles()) {
+    Scene scene = sceneWithStyle(style);
+    std::set<std::string> expected{"volume", "distanceMap"};
+    if (laplacianNeeded(scene)) expected.insert("laplacianField");
+    if (style != "widgets") expected.insert({"transfer0", "extinctions0"});
+    if (style == "line_opacity") expected.insert({"transfer1", "extinctions1"});
+    EXPECT_EQ(samplers(scene), expected) << style;
+    scene.layers[0].labels = {1};
+    expected.insert("labelMasks");
+    EXPECT_EQ(samplers(scene), expected) << style;
+  }
 }
 
 TEST(ProgramGenerator, CutsAndOperatorsAreInItWhereAStyleSeesThem) {
@@ -152,7 +209,7 @@ TEST(ProgramGenerator, EveryWordOfEveryStyleCompiles) {
 TEST(GlProgram, ErrorsNameFileAndLine) {
   const OffscreenContext context{{}};
   const ShaderSource broken = expandIncludes(
-      "#version 450 core\n#define CLIP_PLANES 0\n#include \"lattice.glsl\"\nvoid main() {\n"
+      "#version 450 core\n#include \"lattice.glsl\"\n// a comment\nvoid main() {\n"
       "  undeclared = 1.0;\n}\n",
       "broken.frag");
   try {

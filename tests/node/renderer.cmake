@@ -24,6 +24,7 @@ burin_add_renderer_test(voxel_types_test RANKS 1 TIMEOUT 300)
 target_compile_definitions(voxel_types_test PRIVATE
   BURIN_WRITE_VOLUMES="${CMAKE_CURRENT_SOURCE_DIR}/write_volumes.py")
 burin_add_renderer_test(program_generator_test RANKS 1 TIMEOUT 300)
+target_sources(program_generator_test PRIVATE shader_conditions_test.cpp)
 burin_add_renderer_test(macrocells_test RANKS 1)
 burin_add_renderer_test(clip_planes_test RANKS 1)
 burin_add_renderer_test(visible_blocks_test RANKS 1)
