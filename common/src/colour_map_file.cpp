@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "burin/common/colour_map.hpp"
+#include "burin/common/log.hpp"
 #include "burin/common/nearest_name.hpp"
 #include "scene_codec.hpp"
 #include "text_file.hpp"
@@ -224,6 +225,8 @@ ColourMap readColourMap(const std::filesystem::path& file, std::string_view map)
   sortByValue(read.colours);
   sortByValue(read.opacities);
   clampAll(read);
+  if (read.hasGradientOpacity)
+    note("{}: its opacity by gradient is left out (the style \"surface\" has one)", file.string());
   return read;
 }
 

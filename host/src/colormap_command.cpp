@@ -35,10 +35,7 @@ std::string converted(const ColormapOptions& options) {
         layer.name.empty() ? fs::path{options.input}.stem().string() : layer.name;
     return paraviewJson(layer.transferFunction, name);
   }
-  const ColourMap map = readColourMap(options.input, options.map);
-  if (map.hasGradientOpacity)
-    note("{}: its opacity by gradient is left out (the style \"surface\" has one)", options.input);
-  return sceneText(map);
+  return sceneText(readColourMap(options.input, options.map));
 }
 
 }  // namespace

@@ -186,6 +186,13 @@ TEST(ReadColourMap, SlicersPresets) {
   EXPECT_EQ(mr.unitLength, 0.5);
   EXPECT_EQ(mr.opacities[1].sharpness, 0.25);
   EXPECT_TRUE(mr.hasGradientOpacity);
+  testing::internal::CaptureStderr();
+  readColourMap(text);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  testing::internal::CaptureStderr();
+  readColourMap(json);
+  EXPECT_THAT(testing::internal::GetCapturedStderr(),
+              testing::AllOf(HasSubstr(json), HasSubstr("opacity by gradient")));
   EXPECT_EQ(transferFunctionFrom(mr).opacityUnitLength, 0.5);
 }
 
