@@ -41,8 +41,14 @@ double ReferenceHalo::castBy(const glm::dvec3& neighbour, const glm::dvec3& towa
   const VolumeGrid& grid = volume.grid();
   const double aside = around_.aside * grid.smallestSpacing();
   const auto valueAt = [&](const glm::dvec3& world) {
-    return volume.valueAt(grid.indexFromWorld(world));
+    return volume.valueAt(volume.indexFromWorld(world));
   };
+  // First, as most neighbours end here.
+  const auto inside = valueAt(neighbour - aside * towards);
+  if (!inside) return 0;
+  const double opacity =
+      -std::expm1(-features_.classify(*inside, unitLength_).extinction * unitLength_);
+  if (opacity <= 0) return 0;
   const glm::dvec3 back = glm::cross(view.extent.right(), view.extent.up());
   glm::dvec3 gradient{0};
   for (const glm::dvec3& axis : {towards, glm::cross(back, towards), back}) {
@@ -57,9 +63,6 @@ double ReferenceHalo::castBy(const glm::dvec3& neighbour, const glm::dvec3& towa
   const double m = std::min(steepness / gradientScale_, 1.0);
   const double edge = std::max(1 - std::abs(glm::dot(normal, view.toEye)), 0.0) *
                       smoothstep(noiseFloor_, 2 * noiseFloor_, m);
-  const double inside = *valueAt(neighbour - aside * towards);
-  const double opacity =
-      -std::expm1(-features_.classify(inside, unitLength_).extinction * unitLength_);
   return opacity * m * std::pow(std::max(glm::dot(normal, towards), 0.0), directionPower_) *
          std::pow(edge, edgePower_);
 }

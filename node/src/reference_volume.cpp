@@ -121,6 +121,7 @@ std::vector<T> readAll(BrickSource& source) {
 
 ReferenceVolume::ReferenceVolume(BrickSource& source)
     : grid_{source.info().grid},
+      indexFromWorld_{grid_.worldToIndex()},
       // A gradient is a covector: with w = M i, ∇_w f = M^-T ∇_i f.
       worldFromIndexGradient_{glm::transpose(glm::inverse(grid_.indexToWorld()))} {
   switch (source.info().type) {

@@ -20,6 +20,11 @@ class ReferenceVolume {
   const VolumeGrid& grid() const { return grid_; }
   bool hasNan() const { return hasNan_; }
 
+  /// As the grid's, whose inverse matrix is computed once here.
+  glm::dvec3 indexFromWorld(const glm::dvec3& world) const {
+    return indexFromWorld_ * (world - grid_.origin);
+  }
+
   /// The voxel nearest to an index; may be NaN.
   double voxelAt(const glm::ivec3& index) const;
 
@@ -49,6 +54,7 @@ class ReferenceVolume {
   void cleanFloats();
 
   VolumeGrid grid_;
+  glm::dmat3 indexFromWorld_{1};
   glm::dmat3 worldFromIndexGradient_{1};
   Voxels voxels_;
   bool hasNan_ = false;
