@@ -29,18 +29,17 @@ TEST_P(AgainstReference, EveryStyleInEveryView) {
        {.azimuthDeg = 130, .elevationDeg = 5, .verticalFovDeg = 0.0572958}},
       {"pole", {.azimuthDeg = 0, .elevationDeg = 90}},
   };
+  ComparedScene compared{scene, source};
   for (const auto& view : views) {
     scene.camera = view.camera;
-    const Camera camera = resolveCamera(scene, {grid, false});
-    const Difference d = againstReference(scene, source, camera);
+    const Difference d = compared.difference(resolveCamera(scene, {grid, false}));
     EXPECT_TRUE(d.finite) << view.name;
     EXPECT_LE(d.largest, kReferenceBound) << view.name << ", rms " << d.rms;
   }
   scene.camera = {.verticalFovDeg = 70};
   scene.camera.eye = grid.centreWorld() + glm::dvec3{1, 2, 3};
   scene.camera.target = grid.centreWorld() + glm::dvec3{-10, 4, 9};
-  EXPECT_LE(againstReference(scene, source, resolveCamera(scene, {grid, false})).largest,
-            kReferenceBound)
+  EXPECT_LE(compared.difference(resolveCamera(scene, {grid, false})).largest, kReferenceBound)
       << "inside";
 }
 

@@ -51,7 +51,14 @@ class Stability : public testing::TestWithParam<bool> {
                                 node::BrickSource& source, const Camera& camera,
                                 double bound = kReferenceBound,
                                 const node::WorkerOptions& options = {}) {
-    const DrawnAndTrue both = drawWithReference(scene, source, camera, options);
+    ComparedScene compared{scene, source, options};
+    return expectTrue(what, compared, camera, bound);
+  }
+
+  /// Likewise, for scenes with several views.
+  static Image<Rgba> expectTrue(const std::string& what, ComparedScene& compared,
+                                const Camera& camera, double bound = kReferenceBound) {
+    const DrawnAndTrue both = compared.draw(camera);
     EXPECT_GT(largestAlpha(both.drawn), 0.1) << what << ": an empty picture proves nothing";
     expectNear(what, both.difference(), bound);
     return both.drawn;

@@ -1,6 +1,7 @@
 // Extreme geometry: grids, eyes and rays.
 
 #include <cmath>
+#include <map>
 
 #include "stability_fixture.hpp"
 
@@ -49,27 +50,34 @@ TEST_P(StableViews, RaysAlongFacesEdgesAndSplitPlanes) {
   // are. Sample planes are on them as well: segments' ends at step 1/2, middles at step 1.
   ArraySource source = smoothVolume(gridOf({20, 20, 20}));
   for (const std::string style : {"plain", "all"})
-    for (const int axis : {0, 1, 2})
-      for (const bool backwards : {false, true})
-        for (const double step : {0.5, 1.0}) {
-          Scene scene = sceneOf(style);
-          scene.imageSize = {24, 24};
-          scene.quality.stepVoxels = step;
-          scene = resolved(scene, source);
+    for (const double step : {0.5, 1.0}) {
+      Scene scene = sceneOf(style);
+      scene.imageSize = {24, 24};
+      scene.quality.stepVoxels = step;
+      scene = resolved(scene, source);
+      ComparedScene compared{scene, source};
+      const Communicator self{MPI_COMM_SELF};
+      std::map<int, node::Worker> cuts;
+      for (const int bricks : {2, 5, 8})
+        cuts.try_emplace(bricks, self, scene, source, node::WorkerOptions{.bricks = bricks});
+      for (const int axis : {0, 1, 2})
+        for (const bool backwards : {false, true}) {
           const Camera camera = axisCamera(axis, backwards, source.info().grid, scene.imageSize);
           const std::string name = style + " along axis " + (backwards ? "-" : "") +
                                    std::to_string(axis) + " step " + std::to_string(step);
-          const Image<Rgba> one = expectTrue(name, scene, source, camera, smoothBound(style));
+          const Image<Rgba> one = expectTrue(name, compared, camera, smoothBound(style));
           for (const int corner : {2, 21})
             EXPECT_GT(one.at(corner, corner).a, 0) << name << ": edges belong to the volume";
           for (const int outside : {1, 22}) EXPECT_EQ(one.at(outside, 12).a, 0) << name;
-          for (const int bricks : {2, 5, 8}) {
+          for (auto& [bricks, worker] : cuts) {
             // The project's own bound for any partition.
-            const Image<Rgba> cut = drawAlone(scene, source, camera, {.bricks = bricks});
+            RankStatistics statistics;
+            const Image<Rgba> cut = drawFrame(worker, scene, camera, statistics);
             expectNear(name + ", " + std::to_string(bricks) + " bricks", difference(cut, one),
                        5e-5);
           }
         }
+    }
 }
 
 TEST_P(StableViews, OneVoxelThick) {
@@ -88,14 +96,14 @@ TEST_P(StableViews, OneVoxelThick) {
       const std::string name = style + " " + std::to_string(dims.x) + "x" + std::to_string(dims.y) +
                                "x" + std::to_string(dims.z);
       // smoothBound's s / e is smaller here: 1.3 / 0.36.
-      for (const int bricks : {1, 3})
-        expectTrue(name + ", " + std::to_string(bricks) + " bricks", scene, source,
-                   cameraOf(scene, source), smoothBound(style), {.bricks = bricks});
+      ComparedScene whole{scene, source};
+      ComparedScene cut{scene, source, {.bricks = 3}};
+      expectTrue(name, whole, cameraOf(scene, source), smoothBound(style));
+      expectTrue(name + ", 3 bricks", cut, cameraOf(scene, source), smoothBound(style));
       for (const int axis : {0, 1, 2}) {
         Camera camera = axisCamera(axis, false, source.info().grid, scene.imageSize);
         camera.pixelSize = 0.3;  // several rays through one voxel, none along a face
-        expectTrue(name + " along axis " + std::to_string(axis), scene, source, camera,
-                   smoothBound(style));
+        expectTrue(name + " along axis " + std::to_string(axis), whole, camera, smoothBound(style));
       }
     }
 }
@@ -111,14 +119,14 @@ TEST_P(StableViews, FieldsOfViewAndFarEyes) {
       {"fov 120", {.azimuthDeg = -20, .elevationDeg = 60, .verticalFovDeg = 120}},
       // The eye is R / sin(fov / 2) away, 1e6 diagonals or 2e6 R.
       {"far eye", {.azimuthDeg = 130, .elevationDeg = 5, .verticalFovDeg = 5.7295779513e-5}}};
-  for (const std::string style : {"plain", "all"})
+  for (const std::string style : {"plain", "all"}) {
+    Scene scene = resolved(sceneOf(style), source);
+    ComparedScene compared{scene, source};
     for (const auto& view : views) {
-      Scene scene = sceneOf(style);
       scene.camera = view.camera;
-      scene = resolved(scene, source);
-      expectTrue(style + " " + view.name, scene, source, cameraOf(scene, source),
-                 smoothBound(style));
+      expectTrue(style + " " + view.name, compared, cameraOf(scene, source), smoothBound(style));
     }
+  }
 }
 
 TEST_P(StableViews, EyeAtAFace) {
@@ -126,21 +134,22 @@ TEST_P(StableViews, EyeAtAFace) {
   // below smoothBound however near the eye is.
   ArraySource source = smoothVolume(gridOf({30, 26, 28}));
   const VolumeGrid& grid = source.info().grid;
-  for (const std::string style : {"plain", "all"})
+  for (const std::string style : {"plain", "all"}) {
+    Scene scene = resolved(sceneOf(style), source);
+    ComparedScene compared{scene, source};
     for (const double inside : {-1e-3, 0.0, 1e-3})
       for (const int axis : {0, 1, 2})
         for (const double fov : {30.0, 120.0}) {
-          Scene scene = sceneOf(style);
           glm::dvec3 eye = grid.centreWorld() + glm::dvec3{1, 2, 3};
           eye[axis] = grid.boxIndex().hi[axis] - inside;
           scene.camera.verticalFovDeg = fov;
           scene.camera.eye = eye;
           scene.camera.target = grid.centreWorld();
           scene.camera.upVector = glm::dvec3{0.3, 1, 0.2};
-          scene = resolved(scene, source);
           expectTrue(style + " " + std::to_string(inside) + " inside face " + std::to_string(axis),
-                     scene, source, cameraOf(scene, source), smoothBound(style));
+                     compared, cameraOf(scene, source), smoothBound(style));
         }
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Classification, StableViews, testing::Bool(), classification);

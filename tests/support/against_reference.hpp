@@ -23,25 +23,48 @@ struct DrawnAndTrue {
   }
 };
 
+/// A scene drawn and its truth, for as many views as one likes: making both takes longer than a
+/// picture.
+class ComparedScene {
+ public:
+  explicit ComparedScene(const Scene& scene, node::BrickSource& source,
+                         const node::WorkerOptions& options = {})
+      : scene_{scene},
+        worker_{self_, scene, source, options},
+        reference_{scene, source, node::surveyedScales(worker_.survey(), scene)} {}
+
+  /// The scene's own camera does not count.
+  DrawnAndTrue draw(const Camera& camera) {
+    RankStatistics statistics;
+    DrawnAndTrue both{drawFrame(worker_, scene_, camera, statistics), {}};
+    for (const glm::dvec4& p : reference_.render(camera, 0, camera.image.height, 2))
+      both.truth.push_back({p.r, p.g, p.b, p.a});
+    return both;
+  }
+
+  /// Fails where the picture is empty.
+  Difference difference(const Camera& camera) {
+    const DrawnAndTrue both = draw(camera);
+    EXPECT_GT(largestAlpha(both.drawn), 0.1) << "an empty picture proves nothing";
+    return both.difference();
+  }
+
+ private:
+  const Communicator self_{MPI_COMM_SELF};
+  const Scene scene_;
+  node::Worker worker_;
+  const node::ReferenceRenderer reference_;
+};
+
 inline DrawnAndTrue drawWithReference(const Scene& scene, node::BrickSource& source,
                                       const Camera& camera,
                                       const node::WorkerOptions& options = {}) {
-  const Communicator self{MPI_COMM_SELF};
-  node::Worker worker{self, scene, source, options};
-  RankStatistics statistics;
-  DrawnAndTrue both{drawFrame(worker, scene, camera, statistics), {}};
-  const node::ReferenceRenderer reference{scene, source,
-                                          node::surveyedScales(worker.survey(), scene)};
-  for (const glm::dvec4& p : reference.render(camera, 0, camera.image.height, 2))
-    both.truth.push_back({p.r, p.g, p.b, p.a});
-  return both;
+  return ComparedScene{scene, source, options}.draw(camera);
 }
 
 inline Difference againstReference(const Scene& scene, node::BrickSource& source,
                                    const Camera& camera, const node::WorkerOptions& options = {}) {
-  const DrawnAndTrue both = drawWithReference(scene, source, camera, options);
-  EXPECT_GT(largestAlpha(both.drawn), 0.1) << "an empty picture proves nothing";
-  return both.difference();
+  return ComparedScene{scene, source, options}.difference(camera);
 }
 
 }  // namespace burin::test
