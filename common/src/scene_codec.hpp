@@ -76,10 +76,11 @@ struct Field {
   Document schema;
 };
 
-/// A key whose value is kept by `set` and found by `get` (nothing: not written).
-template <typename T, typename V>
-Field<T> field(std::string_view name, std::string_view help, Codec<V> codec,
-               std::function<std::optional<V>(const T&)> get, std::function<void(T&, V)> set) {
+/// A key whose value is kept by `set(target, value)` and found by `get(source)` as an optional
+/// (nothing: not written). Both are types of their own instead of std::function, of which each kind
+/// of key would need two more: half of what the compiler made of scene files.
+template <typename T, typename V, typename Get, typename Set>
+Field<T> field(std::string_view name, std::string_view help, Codec<V> codec, Get get, Set set) {
   Field<T> made{std::string{name}, std::string{help}, false, {}, {}, std::move(codec.schema)};
   made.read = [read = std::move(codec.read), set](const At& at, T& target) {
     set(target, read(at));
