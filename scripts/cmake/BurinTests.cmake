@@ -1,29 +1,34 @@
-# burin_add_test(NAME SOURCES … LIBRARIES … [LABELS …] [TIMEOUT seconds]): a GoogleTest program, one
-# CTest entry per program (start-up dominates; run one case with --gtest_filter).
+# burin_add_test(NAME SOURCES … LIBRARIES … [LABELS …] [TIMEOUT seconds] [ALONE]): a GoogleTest program,
+# one CTest entry per program (start-up dominates; run one case with --gtest_filter).
+#
+# Where BURIN_UNITY is on, the tests of a folder share a few programs, unless they
+# say ALONE or are for the thread sanitizer; the CTest entries stay (burin_test_program).
 #
 # Label "sanitize" puts a test into the subset that runs under address and undefined-behaviour
 # sanitizers, "threads" into the one for the thread sanitizer; targets sanitize_tests and
 # threads_tests build exactly those programs.
 function(burin_add_test name)
-  cmake_parse_arguments(arg "" "TIMEOUT" "SOURCES;LIBRARIES;LABELS" ${ARGN})
-  burin_test_program(${name} SOURCES ${arg_SOURCES} LABELS ${arg_LABELS}
-                     LIBRARIES ${arg_LIBRARIES} GTest::gtest_main)
-  add_test(NAME ${name} COMMAND ${name})
+  cmake_parse_arguments(arg "ALONE" "TIMEOUT" "SOURCES;LIBRARIES;LABELS" ${ARGN})
+  burin_test_program(${name} SOURCES ${arg_SOURCES} LABELS ${arg_LABELS} ALONE ${arg_ALONE}
+                     KIND serial LIBRARIES ${arg_LIBRARIES} burin::test_main)
+  burin_test_command(command ${name})
+  add_test(NAME ${name} COMMAND ${command})
   burin_set_test(${name} TIMEOUT ${arg_TIMEOUT} LABELS ${arg_LABELS})
 endfunction()
 
 # burin_add_mpi_test(NAME RANKS 1 2 3 … SOURCES … LIBRARIES … [LABELS …] [TIMEOUT seconds]
-# [PROCESSORS n]): a GoogleTest program with the MPI main of tests/support, one CTest entry per rank
+# [PROCESSORS n] [ALONE]): a GoogleTest program with the MPI main of tests/support, one CTest entry per rank
 # count. Every rank runs every case; a failure on any rank fails the entry. Several ranks count as two
 # processors (or n, for a test that mostly waits), so that a machine with two cores runs one such test at
 # a time; one rank, though it may draw with more threads, as one, because no test keeps them busy.
 # The sanitizers run it on up to three ranks: with three there are a rank in the middle and folding.
 function(burin_add_mpi_test name)
-  cmake_parse_arguments(arg "" "TIMEOUT;PROCESSORS" "RANKS;SOURCES;LIBRARIES;LABELS" PROCESSORS 2 ${ARGN})
-  burin_test_program(${name} SOURCES ${arg_SOURCES} LABELS ${arg_LABELS}
-                     LIBRARIES ${arg_LIBRARIES} burin::test_mpi_main GTest::gtest)
+  cmake_parse_arguments(arg "ALONE" "TIMEOUT;PROCESSORS" "RANKS;SOURCES;LIBRARIES;LABELS" PROCESSORS 2 ${ARGN})
+  burin_test_program(${name} SOURCES ${arg_SOURCES} LABELS ${arg_LABELS} ALONE ${arg_ALONE}
+                     KIND mpi LIBRARIES ${arg_LIBRARIES} burin::test_mpi_main)
+  burin_test_command(command ${name})
   foreach(ranks ${arg_RANKS})
-    add_test(NAME ${name}_${ranks} COMMAND ${BURIN_MPIRUN} -n ${ranks} $<TARGET_FILE:${name}>)
+    add_test(NAME ${name}_${ranks} COMMAND ${BURIN_MPIRUN} -n ${ranks} ${command})
     set(processors ${arg_PROCESSORS})
     if(ranks EQUAL 1)
       set(processors 1)
@@ -37,21 +42,74 @@ function(burin_add_mpi_test name)
   endforeach()
 endfunction()
 
-# What both kinds of test programs have in common.
+# What both kinds of test programs have in common. KIND: serial or mpi; ALONE: TRUE or FALSE.
 function(burin_test_program name)
-  cmake_parse_arguments(arg "" "" "SOURCES;LIBRARIES;LABELS" ${ARGN})
-  add_executable(${name} ${arg_SOURCES})
+  cmake_parse_arguments(arg "" "KIND;ALONE" "SOURCES;LIBRARIES;LABELS" ${ARGN})
+  set(program ${name})
+  if(NOT BURIN_UNITY OR arg_ALONE OR "threads" IN_LIST arg_LABELS)
+    burin_test_executable(${name})
+    target_sources(${name} PRIVATE ${arg_SOURCES})
+    target_link_libraries(${name} PRIVATE ${arg_LIBRARIES})
+  else()
+    set(subset others)
+    if("sanitize" IN_LIST arg_LABELS)
+      set(subset sanitize)
+    endif()
+    get_filename_component(folder ${CMAKE_CURRENT_SOURCE_DIR} NAME)
+    set(program ${folder}_${arg_KIND}_${subset})
+    # Never built: it holds what the folder says of this test until the program takes it over.
+    add_library(${name} OBJECT EXCLUDE_FROM_ALL ${arg_SOURCES})
+    target_link_libraries(${name} PRIVATE ${arg_LIBRARIES})
+    if(NOT TARGET ${program})
+      burin_test_executable(${program})
+      set_target_properties(${program} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
+    endif()
+    cmake_language(EVAL CODE "cmake_language(DEFER CALL burin_join ${program} ${name})")
+    set_target_properties(${name} PROPERTIES BURIN_PROGRAM ${program})
+  endif()
+  foreach(subset sanitize threads)
+    if(subset IN_LIST arg_LABELS)
+      add_dependencies(${subset}_tests ${program})
+    endif()
+  endforeach()
+endfunction()
+
+function(burin_test_executable name)
+  add_executable(${name})
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   target_link_libraries(${name} PRIVATE
-    ${arg_LIBRARIES} burin::test_support GTest::gmock burin_warnings)
+    burin::test_support GTest::gtest GTest::gmock burin_warnings)
   target_link_options(${name} PRIVATE ${BURIN_TEST_LINKER})
   burin_use_headers(${name} burin_test_headers)
   burin_test_options(${name})
-  foreach(subset sanitize threads)
-    if(subset IN_LIST arg_LABELS)
-      add_dependencies(${subset}_tests ${name})
+endfunction()
+
+# Called when a folder has said everything of its tests: PROGRAM takes over what TEST is made of. Headers
+# and the templates of scenes are most of what a test compiles; together, tests take a third of the time
+# that they take one by one.
+function(burin_join program test)
+  foreach(property SOURCES COMPILE_DEFINITIONS INCLUDE_DIRECTORIES LINK_LIBRARIES)
+    get_target_property(values ${test} ${property})
+    if(values)
+      set_property(TARGET ${program} APPEND PROPERTY ${property} ${values})
     endif()
   endforeach()
+  get_target_property(dependencies ${test} MANUALLY_ADDED_DEPENDENCIES)
+  if(dependencies)
+    add_dependencies(${program} ${dependencies})
+  endif()
+endfunction()
+
+# burin_test_command(VARIABLE NAME): what runs the test NAME, without mpirun; of a shared program, the cases
+# of the files that the test is made of.
+function(burin_test_command variable name)
+  get_target_property(program ${name} BURIN_PROGRAM)
+  if(program)
+    set(command $<TARGET_FILE:${program}> "--files=$<JOIN:$<TARGET_PROPERTY:${name},SOURCES>,:>")
+  else()
+    set(command $<TARGET_FILE:${name}>)
+  endif()
+  set(${variable} ${command} PARENT_SCOPE)
 endfunction()
 
 # burin_set_test(NAME [TIMEOUT seconds] [PROCESSORS n] [LABELS …]): what every CTest entry needs:

@@ -10,7 +10,7 @@ namespace burin {
 namespace {
 
 template <typename Exception, typename Work>
-std::string messageOf(Work work) {
+std::string logicErrorOf(Work work) {
   try {
     work();
   } catch (const Exception& error) {
@@ -32,11 +32,11 @@ TEST(Fail, CarriesCodeAndMessage) {
 
 TEST(Check, NamesPlaceExpressionAndValues) {
   const int three = 3;
-  const std::string equal = messageOf<std::logic_error>([&] { BURIN_CHECK_EQ(three + 1, 5); });
+  const std::string equal = logicErrorOf<std::logic_error>([&] { BURIN_CHECK_EQ(three + 1, 5); });
   EXPECT_NE(equal.find("error_test.cpp:"), std::string::npos) << equal;
   EXPECT_NE(equal.find("three + 1 == 5"), std::string::npos) << equal;
   EXPECT_NE(equal.find("4 and 5"), std::string::npos) << equal;
-  const std::string plain = messageOf<std::logic_error>([&] { BURIN_CHECK(three > 4); });
+  const std::string plain = logicErrorOf<std::logic_error>([&] { BURIN_CHECK(three > 4); });
   EXPECT_NE(plain.find("three > 4"), std::string::npos) << plain;
   EXPECT_NO_THROW(BURIN_CHECK_EQ(three, 3));
   EXPECT_NO_THROW(BURIN_CHECK(three < 4));

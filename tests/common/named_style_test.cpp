@@ -41,7 +41,7 @@ std::vector<StyleSettings> effectsOf(const std::string& style,
   return parseScene(text, name, overrides).layers[0].styles;
 }
 
-std::string messageOf(const std::string& style, const std::string& name = "scene.json") {
+std::string styleMessageOf(const std::string& style, const std::string& name = "scene.json") {
   try {
     effectsOf(style, {}, name);
   } catch (const Error& error) {
@@ -144,16 +144,19 @@ TEST(NamedStyles, MistakesAreNamedWithTheirPlace) {
   folder.write("nested.json", R"({ "description": "d", "style": { "base": "good" } })");
   folder.write("short.json", R"({ "style": {} })");
   const ChosenFolders folders{folder.path().string()};
-  EXPECT_THAT(messageOf(R"("god")"), HasSubstr("layers[0].style: style 'god' is unknown; did you "
-                                               "mean 'good'?"));
-  EXPECT_THAT(messageOf(R"({ "base": "god" })"), HasSubstr("layers[0].style.base: style 'god'"));
-  EXPECT_THAT(messageOf(R"({ "base": 3 })"), HasSubstr("expected the name of a style, found 3"));
-  EXPECT_THAT(messageOf(R"("bad")"),
+  EXPECT_THAT(styleMessageOf(R"("god")"),
+              HasSubstr("layers[0].style: style 'god' is unknown; did you "
+                        "mean 'good'?"));
+  EXPECT_THAT(styleMessageOf(R"({ "base": "god" })"),
+              HasSubstr("layers[0].style.base: style 'god'"));
+  EXPECT_THAT(styleMessageOf(R"({ "base": 3 })"),
+              HasSubstr("expected the name of a style, found 3"));
+  EXPECT_THAT(styleMessageOf(R"("bad")"),
               HasSubstr((folder / "bad.json") + ":2:14: layers[0].style.lihgt"));
-  EXPECT_THAT(messageOf(R"("nested")"), HasSubstr("a named style has no base"));
-  EXPECT_THAT(messageOf(R"("short")"), HasSubstr("expected 'description' and 'style'"));
-  EXPECT_THAT(messageOf(R"("./none.json")"), HasSubstr("none.json: cannot read the style"));
-  EXPECT_THAT(messageOf(R"({ "base": "good", "without": ["tone"] })"),
+  EXPECT_THAT(styleMessageOf(R"("nested")"), HasSubstr("a named style has no base"));
+  EXPECT_THAT(styleMessageOf(R"("short")"), HasSubstr("expected 'description' and 'style'"));
+  EXPECT_THAT(styleMessageOf(R"("./none.json")"), HasSubstr("none.json: cannot read the style"));
+  EXPECT_THAT(styleMessageOf(R"({ "base": "good", "without": ["tone"] })"),
               HasSubstr("layers[0].style.without[0]: the named style has no \"tone\""));
 }
 

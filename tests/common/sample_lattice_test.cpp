@@ -16,15 +16,15 @@ using test::Random;
 using Wide = glm::vec<3, long double>;
 using WideMatrix = glm::mat<3, 3, long double>;
 
-constexpr ImageSize kImage{200, 120};
+constexpr ImageSize kLatticeImage{200, 120};
 
 /// The position the conventions ask for, in centred index space, straight from the eye in 64-bit
 /// mantissas: eye + k * step * (forward + x right + y up), taken to the volume's own axes.
 Wide exactPosition(const Camera& camera, const VolumeGrid& grid, double stepWorld, std::int64_t k,
                    double column, double row) {
   const long double pixel = camera.pixelSize;
-  const long double x = (column - kImage.width / 2.0L) * pixel;
-  const long double y = (kImage.height / 2.0L - row) * pixel;
+  const long double x = (column - kLatticeImage.width / 2.0L) * pixel;
+  const long double y = (kLatticeImage.height / 2.0L - row) * pixel;
   const long double depth = static_cast<long double>(k) * stepWorld;
   const long double spread = camera.projection == Projection::kPerspective ? depth : 1.0L;
   const Wide world = Wide{camera.eyeWorld} + depth * Wide{camera.forward} +
@@ -54,16 +54,16 @@ double worstError(const Camera& camera, const VolumeGrid& grid, double stepVoxel
   const glm::dvec3 half = 0.5 * (grid.boxIndex().hi - grid.boxIndex().lo);
   double worst = -1;
   for (int i = 0; i < 4000; ++i) {
-    const int column = random.integer(0, kImage.width - 1);
-    const int row = random.integer(0, kImage.height - 1);
+    const int column = random.integer(0, kLatticeImage.width - 1);
+    const int row = random.integer(0, kLatticeImage.height - 1);
     const double j =
         std::max(static_cast<double>(random.integer(-planes, planes)), lattice.nearPlane);
     const Wide exact = exactPosition(camera, grid, lattice.stepWorld,
                                      lattice.reference + std::llround(j), column + 0.5, row + 0.5);
     if (glm::any(glm::greaterThan(glm::abs(glm::dvec3{exact}), half))) continue;
-    const auto position =
-        latticePosition<T>(lattice, static_cast<T>(column + 0.5 - kImage.width / 2.0),
-                           static_cast<T>(row + 0.5 - kImage.height / 2.0), static_cast<T>(j));
+    const auto position = latticePosition<T>(
+        lattice, static_cast<T>(column + 0.5 - kLatticeImage.width / 2.0),
+        static_cast<T>(row + 0.5 - kLatticeImage.height / 2.0), static_cast<T>(j));
     worst = std::max(worst, static_cast<double>(glm::length(Wide{position} - exact)));
   }
   EXPECT_GE(worst, 0) << "no sample was inside the volume";
@@ -76,7 +76,7 @@ TEST(SampleLattice, EqualsTheDirectFormulaInDouble) {
     for (const Projection projection : {Projection::kPerspective, Projection::kOrthographic}) {
       for (const double diagonals : {0.0001, 0.4, 3.0, 1000.0}) {
         const VolumeGrid grid = test::makeGrid(random, {60, 80, 50}, axes);
-        Camera camera = test::randomCamera(random, grid, projection, diagonals, kImage);
+        Camera camera = test::randomCamera(random, grid, projection, diagonals, kLatticeImage);
         // From far away the picture is zoomed, so that the volume fills it as before.
         if (projection == Projection::kPerspective) camera.pixelSize /= std::max(diagonals, 1.0);
         // 20 roundings of the eye's distance in voxels of 0.4 (and of the coordinates themselves).
@@ -99,10 +99,12 @@ TEST(SampleLattice, FloatSufficesAtAnyDistance) {
   grid.origin = {-300, 12, 70};
   for (const double diagonals : {0.5, 1.0, 10.0, 1e3, 1e6}) {
     for (int trial = 0; trial < 5; ++trial) {
-      Camera camera = test::randomCamera(random, grid, Projection::kPerspective, diagonals, kImage);
+      Camera camera =
+          test::randomCamera(random, grid, Projection::kPerspective, diagonals, kLatticeImage);
       camera.pixelSize /= std::max(diagonals, 1.0);
       EXPECT_LT(worstError<float>(camera, grid, 0.5, random), kFloatBound) << diagonals;
-      camera = test::randomCamera(random, grid, Projection::kOrthographic, diagonals, kImage);
+      camera =
+          test::randomCamera(random, grid, Projection::kOrthographic, diagonals, kLatticeImage);
       EXPECT_LT(worstError<float>(camera, grid, 0.5, random), kFloatBound) << diagonals;
     }
   }
@@ -115,7 +117,7 @@ TEST(SampleLattice, FloatSufficesAtNarrowAndWideAngles) {
   for (const double fov : {1.0, 30.0, 90.0, 150.0}) {
     for (int trial = 0; trial < 5; ++trial) {
       const Camera camera =
-          orbitCamera({random.real(0, 360), random.real(-90, 90), fov}, grid, kImage);
+          orbitCamera({random.real(0, 360), random.real(-90, 90), fov}, grid, kLatticeImage);
       EXPECT_LT(worstError<float>(camera, grid, 0.5, random), kFloatBound) << fov;
     }
   }
@@ -126,7 +128,8 @@ TEST(SampleLattice, ReferenceIsThePlaneNearestTheCentre) {
   for (const Projection projection : {Projection::kPerspective, Projection::kOrthographic}) {
     for (int trial = 0; trial < 50; ++trial) {
       const VolumeGrid grid = test::makeGrid(random, {60, 80, 50}, Axes::kSheared);
-      const Camera camera = test::randomCamera(random, grid, projection, random.real(0, 3), kImage);
+      const Camera camera =
+          test::randomCamera(random, grid, projection, random.real(0, 3), kLatticeImage);
       const SampleLattice lattice = makeSampleLattice(camera, grid, 0.7);
       EXPECT_DOUBLE_EQ(lattice.stepWorld, 0.7 * grid.smallestSpacing());
       const glm::dvec3 fromCentre = grid.indexToWorld() * lattice.base;
@@ -151,7 +154,7 @@ TEST(SampleLattice, ReferenceIsThePlaneNearestTheCentre) {
 TEST(SampleLattice, PositiveFyIsDownInThePicture) {
   VolumeGrid grid;
   grid.dims = {11, 11, 11};
-  const SampleLattice lattice = makeSampleLattice(orbitCamera({}, grid, kImage), grid, 1);
+  const SampleLattice lattice = makeSampleLattice(orbitCamera({}, grid, kLatticeImage), grid, 1);
   EXPECT_GT(latticePosition(lattice, 10.0, 0.0, 0.0).x, 0);
   EXPECT_LT(latticePosition(lattice, 0.0, 10.0, 0.0).y, 0);
   EXPECT_LT(latticePosition(lattice, 0.0, 0.0, 1.0).z, latticePosition(lattice, 0.0, 0.0, 0.0).z);
@@ -161,7 +164,7 @@ TEST(SampleLattice, EyeBeyondCountingIsAnError) {
   VolumeGrid grid;
   grid.dims = {11, 11, 11};
   const Camera camera = lookAtCamera({0, 0, 1e20}, {0, 0, 0}, {0, 1, 0}, 30, 1,
-                                     Projection::kPerspective, grid, kImage);
+                                     Projection::kPerspective, grid, kLatticeImage);
   EXPECT_THROW(makeSampleLattice(camera, grid, 1), Error);
 }
 

@@ -18,7 +18,7 @@ void expectNear(const glm::dvec3& a, const glm::dvec3& b, double tolerance = kDi
 }
 
 /// 11 × 21 × 41 voxels of spacing 1 × 0.5 × 0.25 from (5, 6, 7): a cube of side 10.
-VolumeFacts cube(bool anatomical) {
+VolumeFacts cubeFacts(bool anatomical) {
   VolumeFacts facts;
   facts.grid.dims = {11, 21, 41};
   facts.grid.spacing = {1, 0.5, 0.25};
@@ -52,7 +52,7 @@ TEST(ResolveCamera, NamedViewsAreLps) {
   for (const NamedView& view : views) {
     for (const bool anatomical : {true, false}) {
       SCOPED_TRACE(view.name);
-      const Camera camera = resolveCamera(sceneWithView(view.name), cube(anatomical));
+      const Camera camera = resolveCamera(sceneWithView(view.name), cubeFacts(anatomical));
       expectNear(camera.forward, -view.toEye);
       expectNear(camera.up, view.up);
       expectNear(camera.right, view.right);
@@ -63,21 +63,21 @@ TEST(ResolveCamera, NamedViewsAreLps) {
 }
 
 TEST(ResolveCamera, UnknownViewIsAnError) {
-  EXPECT_THROW(resolveCamera(sceneWithView("front"), cube(true)), Error);
+  EXPECT_THROW(resolveCamera(sceneWithView("front"), cubeFacts(true)), Error);
 }
 
 TEST(ResolveCamera, AutoUpIsZForAnatomicalVolumesElseY) {
   Scene scene;
   scene.camera.azimuthDeg = 0;
   scene.camera.elevationDeg = 0;
-  expectNear(resolveCamera(scene, cube(true)).forward, {0, 1, 0});
-  expectNear(resolveCamera(scene, cube(true)).up, {0, 0, 1});
-  expectNear(resolveCamera(scene, cube(false)).forward, {0, 0, -1});
-  expectNear(resolveCamera(scene, cube(false)).up, {0, 1, 0});
+  expectNear(resolveCamera(scene, cubeFacts(true)).forward, {0, 1, 0});
+  expectNear(resolveCamera(scene, cubeFacts(true)).up, {0, 0, 1});
+  expectNear(resolveCamera(scene, cubeFacts(false)).forward, {0, 0, -1});
+  expectNear(resolveCamera(scene, cubeFacts(false)).up, {0, 1, 0});
   scene.camera.upAxis = std::string{"y"};  // gcc 12 warns falsely about = "y"
-  expectNear(resolveCamera(scene, cube(true)).up, {0, 1, 0});
+  expectNear(resolveCamera(scene, cubeFacts(true)).up, {0, 1, 0});
   scene.camera.upAxis = std::string{"z"};
-  expectNear(resolveCamera(scene, cube(false)).up, {0, 0, 1});
+  expectNear(resolveCamera(scene, cubeFacts(false)).up, {0, 0, 1});
 }
 
 TEST(ResolveCamera, AnglesFollowTheContract) {
@@ -85,9 +85,9 @@ TEST(ResolveCamera, AnglesFollowTheContract) {
   scene.camera.azimuthDeg = 40;
   scene.camera.elevationDeg = -25;
   const double az = glm::radians(40.0), el = glm::radians(-25.0);
-  expectNear(resolveCamera(scene, cube(false)).forward,
+  expectNear(resolveCamera(scene, cubeFacts(false)).forward,
              -glm::dvec3{std::sin(az) * std::cos(el), std::sin(el), std::cos(az) * std::cos(el)});
-  expectNear(resolveCamera(scene, cube(true)).forward,
+  expectNear(resolveCamera(scene, cubeFacts(true)).forward,
              -glm::dvec3{std::sin(az) * std::cos(el), -std::cos(az) * std::cos(el), std::sin(el)});
 }
 
@@ -95,26 +95,26 @@ TEST(ResolveCamera, OrbitAddsToTheAzimuth) {
   for (const bool anatomical : {true, false}) {
     Scene scene;
     scene.camera.azimuthDeg = 70;
-    const Camera expected = resolveCamera(scene, cube(anatomical));
+    const Camera expected = resolveCamera(scene, cubeFacts(anatomical));
     scene.camera.azimuthDeg = 20;
-    const Camera turned = resolveCamera(scene, cube(anatomical), 50);
+    const Camera turned = resolveCamera(scene, cubeFacts(anatomical), 50);
     expectNear(turned.forward, expected.forward);
     expectNear(turned.eyeWorld, expected.eyeWorld, 1e-12);
   }
-  expectNear(resolveCamera(sceneWithView("anterior"), cube(true), 90).forward, {-1, 0, 0});
+  expectNear(resolveCamera(sceneWithView("anterior"), cubeFacts(true), 90).forward, {-1, 0, 0});
 }
 
 TEST(ResolveCamera, OrbitTurnsAnExplicitEyeTheSameWay) {
   for (const bool anatomical : {true, false}) {
     Scene orbit;
-    const Camera start = resolveCamera(orbit, cube(anatomical));
+    const Camera start = resolveCamera(orbit, cubeFacts(anatomical));
     Scene explicitEye;
     explicitEye.camera.eye = start.eyeWorld;  // target and up as by default: centre, auto
-    const Camera same = resolveCamera(explicitEye, cube(anatomical));
+    const Camera same = resolveCamera(explicitEye, cubeFacts(anatomical));
     expectNear(same.forward, start.forward);
     expectNear(same.up, start.up);
-    const Camera a = resolveCamera(orbit, cube(anatomical), 77);
-    const Camera b = resolveCamera(explicitEye, cube(anatomical), 77);
+    const Camera a = resolveCamera(orbit, cubeFacts(anatomical), 77);
+    const Camera b = resolveCamera(explicitEye, cubeFacts(anatomical), 77);
     expectNear(a.eyeWorld, b.eyeWorld, 1e-12);
     expectNear(a.up, b.up);
   }
@@ -125,7 +125,7 @@ TEST(ResolveCamera, ExplicitEyeTargetAndUp) {
   scene.camera.eye = glm::dvec3{1, 2, 9};
   scene.camera.target = glm::dvec3{1, 2, 3};
   scene.camera.upVector = glm::dvec3{5, 0, 2};  // neither unit nor perpendicular
-  const Camera camera = resolveCamera(scene, cube(true));
+  const Camera camera = resolveCamera(scene, cubeFacts(true));
   EXPECT_EQ(camera.eyeWorld, (glm::dvec3{1, 2, 9}));
   expectNear(camera.forward, {0, 0, -1});
   expectNear(camera.up, {1, 0, 0});
@@ -136,7 +136,7 @@ TEST(ResolveScene, OpacityUnitLengthBecomesTheSmallestSpacing) {
   Scene scene;
   scene.layers.resize(2);
   scene.layers[1].transferFunction.opacityUnitLength = 3;
-  resolveScene(scene, cube(true));
+  resolveScene(scene, cubeFacts(true));
   EXPECT_EQ(scene.layers[0].transferFunction.opacityUnitLength, 0.25);
   EXPECT_EQ(scene.layers[1].transferFunction.opacityUnitLength, 3);
   const Scene once = scene;
@@ -145,7 +145,7 @@ TEST(ResolveScene, OpacityUnitLengthBecomesTheSmallestSpacing) {
 }
 
 TEST(LightDirection, EyeSpaceIsRightUpAndToTheViewer) {
-  const Camera camera = resolveCamera(sceneWithView("left"), cube(true));
+  const Camera camera = resolveCamera(sceneWithView("left"), cubeFacts(true));
   const auto direction = [&](const glm::dvec3& d, bool eyeSpace) {
     return lightDirectionWorld(Light{d, eyeSpace, {}, 1}, camera);
   };

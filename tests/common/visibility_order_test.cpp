@@ -12,7 +12,7 @@ namespace {
 using test::Axes;
 using test::Random;
 
-constexpr ImageSize kImage{64, 64};
+constexpr ImageSize kOrderImage{64, 64};
 
 BrickTree randomTree(Random& random, Axes axes, glm::ivec3 dims) {
   const VolumeGrid grid = test::makeGrid(random, dims, axes);
@@ -41,8 +41,8 @@ int expectOrderAlongRays(const BrickTree& tree, const Camera& camera, Random& ra
                                             tree.grid().boundingRadius());
   int meetings = 0;
   for (int i = 0; i < rays; ++i) {
-    const test::Ray ray =
-        test::rayWorld(camera, random.real(0, kImage.width), random.real(0, kImage.height));
+    const test::Ray ray = test::rayWorld(camera, random.real(0, kOrderImage.width),
+                                         random.real(0, kOrderImage.height));
     std::optional<test::Interval> last;
     for (const BrickId brick : order) {
       const auto inside = test::depthsInside(tree.grid(), tree.brickCells(brick), camera, ray);
@@ -74,7 +74,7 @@ TEST(VisibilityOrder, HoldsAlongRandomRays) {
         for (int trial = 0; trial < 4; ++trial) {
           const BrickTree tree = randomTree(random, axes, {20, 27, 14});
           const Camera camera = test::randomCamera(random, tree.grid(), projection,
-                                                   std::max(diagonals, 1e-6), kImage);
+                                                   std::max(diagonals, 1e-6), kOrderImage);
           Camera zoomed = camera;
           if (projection == Projection::kPerspective) zoomed.pixelSize /= std::max(diagonals, 1.0);
           meetings += expectOrderAlongRays(tree, zoomed, random, 60);
@@ -97,7 +97,7 @@ TEST(VisibilityOrder, EyeInASplitPlane) {
             glm::dvec3{node.cells.lo} + glm::dvec3{node.cells.size()} * random.vector(-0.5, 1.5);
         eye[node.axis] = node.plane;
         Camera camera =
-            test::randomCamera(random, tree.grid(), Projection::kPerspective, 1, kImage);
+            test::randomCamera(random, tree.grid(), Projection::kPerspective, 1, kOrderImage);
         camera.eyeWorld = tree.grid().worldFromIndex(eye);
         expectOwnersInOrder(tree, camera);
         const auto order = tree.visibilityOrder(camera);
@@ -124,8 +124,9 @@ TEST(VisibilityOrder, AxisParallelViewsLieInSplitPlanes) {
     for (const double azimuth : {0.0, 90.0, 180.0, 270.0}) {
       for (const double elevation : {-90.0, 0.0, 90.0}) {
         const BrickTree tree = randomTree(random, Axes::kAligned, {20, 27, 14});
-        const Camera camera = orbitCamera(
-            {azimuth, elevation, 30, 1, upAxis, Projection::kOrthographic}, tree.grid(), kImage);
+        const Camera camera =
+            orbitCamera({azimuth, elevation, 30, 1, upAxis, Projection::kOrthographic}, tree.grid(),
+                        kOrderImage);
         meetings += expectOrderAlongRays(tree, camera, random, 200);
         expectOwnersInOrder(tree, camera);
       }
@@ -143,7 +144,7 @@ TEST(VisibilityOrder, LeftComesFirstInThePlane) {
   const std::vector<int> rightFirst{1, 0};
   const auto from = [&](double x, Projection projection) {
     return tree.ownerVisibilityOrder(
-        lookAtCamera({x, 1, 30}, {4, 1, 1}, {0, 1, 0}, 30, 1, projection, grid, kImage));
+        lookAtCamera({x, 1, 30}, {4, 1, 1}, {0, 1, 0}, 30, 1, projection, grid, kOrderImage));
   };
   EXPECT_EQ(from(3.999, Projection::kPerspective), leftFirst);
   EXPECT_EQ(from(4, Projection::kPerspective), leftFirst);

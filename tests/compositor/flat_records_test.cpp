@@ -10,26 +10,26 @@ namespace {
 constexpr std::size_t kPriorities = 4;
 using Flat = FlatRecords<kPriorities>;
 
-struct Sample {
+struct FlatSample {
   int priority = 0;
   float flatness = 0;
   Rgba colour;
 };
 
 /// Some are transparent, and many have the flatness at which nothing or everything is scaled.
-Sample randomSample(test::Random& random) {
+FlatSample randomSample(test::Random& random) {
   constexpr std::array kFlatness{0.0f, 1.0f, 0.25f, 0.7f};
-  Sample sample{test::below(random, int{kPriorities}), kFlatness[random() % kFlatness.size()],
-                test::randomPixel(Over{}, random)};
+  FlatSample sample{test::below(random, int{kPriorities}), kFlatness[random() % kFlatness.size()],
+                    test::randomPixel(Over{}, random)};
   if (test::below(random, 5) == 0) sample.colour = {};
   return sample;
 }
 
 /// The flat mode as it is defined, sample by sample on one ray, in double.
-std::array<double, 4> flatRay(const std::vector<Sample>& samples) {
+std::array<double, 4> flatRay(const std::vector<FlatSample>& samples) {
   std::array<double, 4> sum{};
   int highest = -1;
-  for (const Sample& sample : samples) {
+  for (const FlatSample& sample : samples) {
     if (sample.colour.a == 0) continue;
     if (sample.priority > highest) {
       highest = sample.priority;
@@ -42,9 +42,9 @@ std::array<double, 4> flatRay(const std::vector<Sample>& samples) {
   return sum;
 }
 
-Flat::Pixel segment(const std::vector<Sample>& samples) {
+Flat::Pixel segment(const std::vector<FlatSample>& samples) {
   Flat::Pixel pixel = Flat::identity();
-  for (const Sample& s : samples) {
+  for (const FlatSample& s : samples) {
     const auto priority = static_cast<std::size_t>(s.priority);
     pixel = Flat::combine(pixel, Flat::sample(priority, s.flatness, s.colour));
   }
@@ -67,11 +67,11 @@ void expectNear(const Rgba& got, const std::array<double, 4>& exact, double boun
 TEST(FlatRecords, RanksTogetherDrawWhatOneDraws) {
   test::Random random{1};
   for (int trial = 0; trial < 20'000; ++trial) {
-    std::vector<Sample> ray;
+    std::vector<FlatSample> ray;
     std::vector<Flat::Pixel> ranks;
     for (int rank = 0; rank < 6; ++rank) {
-      std::vector<Sample> part(random() % 6);
-      for (Sample& sample : part) sample = randomSample(random);
+      std::vector<FlatSample> part(random() % 6);
+      for (FlatSample& sample : part) sample = randomSample(random);
       ray.insert(ray.end(), part.begin(), part.end());
       ranks.push_back(segment(part));
     }
@@ -85,8 +85,8 @@ TEST(FlatRecords, WithoutFlatnessItIsOver) {
   test::Random random{2};
   for (int trial = 0; trial < 1000; ++trial) {
     Rgba sum;
-    std::vector<Sample> ray(1 + random() % 20);
-    for (Sample& sample : ray) {
+    std::vector<FlatSample> ray(1 + random() % 20);
+    for (FlatSample& sample : ray) {
       sample = randomSample(random);
       sample.flatness = 0;
       sum = over(sum, sample.colour);

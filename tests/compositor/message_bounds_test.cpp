@@ -48,10 +48,10 @@ class MessageBounds : public testing::Test {
   }
 };
 
-using Algebras =
+using BoundedAlgebras =
     testing::Types<Over, OverHalf, Maximum, Nearest, Silhouette, SilhouetteDepth, FlatRecords<4>,
                    Product<Channel<"beauty", Over>, Channel<"silhouette", Silhouette>>>;
-TYPED_TEST_SUITE(MessageBounds, Algebras);
+TYPED_TEST_SUITE(MessageBounds, BoundedAlgebras);
 
 TYPED_TEST(MessageBounds, DenseFrames) {
   for (const ImageSize size : {ImageSize{1, 1}, ImageSize{131, 37}, ImageSize{997, 1}}) {

@@ -9,7 +9,7 @@ namespace burin::compositor {
 namespace {
 
 using enum RayState;
-using Slices = std::vector<SliceSymbol>;
+using DeepSlices = std::vector<SliceSymbol>;
 using Pixel = SilhouetteDepthPixel;
 
 /// Every function; those that have a depth have `depth`.
@@ -24,7 +24,7 @@ std::vector<Pixel> everyPixel(float depth) {
 }
 
 /// Slice i has depth firstDepth + i.
-Pixel segment(const Slices& slices, float firstDepth) {
+Pixel deepSegment(const DeepSlices& slices, float firstDepth) {
   Pixel pixel = SilhouetteDepth::identity();
   float depth = firstDepth;
   for (const SliceSymbol symbol : slices) {
@@ -35,7 +35,7 @@ Pixel segment(const Slices& slices, float firstDepth) {
 }
 
 /// A ray that came to the segment in state `before` leaves it so.
-test::Walk after(const test::Walk& before, const Pixel& pixel) {
+test::Walk walkAfter(const test::Walk& before, const Pixel& pixel) {
   const DepthOutcome& outcome =
       SilhouetteDepth::function(pixel)[static_cast<std::size_t>(before.state)];
   switch (outcome.depth) {
@@ -73,11 +73,11 @@ TEST(SilhouetteDepth, IsAssociativeForAllTriplesWhateverTheDepths) {
 
 TEST(SilhouetteDepth, SegmentDoesWhatTheStateMachineDoesFromEveryState) {
   for (int length = 0; length <= 8; ++length) {
-    test::forEachRay(length, [](const Slices& slices) {
-      const Pixel pixel = segment(slices, 10);
+    test::forEachRay(length, [](const DeepSlices& slices) {
+      const Pixel pixel = deepSegment(slices, 10);
       for (const RayState state : {kEmpty, kFilled, kContour, kSilhouette}) {
         const test::Walk before{state, 5};
-        ASSERT_TRUE(agree(after(before, pixel), test::walk(before, slices, 10)));
+        ASSERT_TRUE(agree(walkAfter(before, pixel), test::walk(before, slices, 10)));
       }
     });
   }
@@ -86,12 +86,12 @@ TEST(SilhouetteDepth, SegmentDoesWhatTheStateMachineDoesFromEveryState) {
 TEST(SilhouetteDepth, RanksTogetherSeeWhatOneSees) {
   test::Random random{1};
   for (int trial = 0; trial < 20'000; ++trial) {
-    Slices ray;
+    DeepSlices ray;
     std::vector<Pixel> ranks;
     for (int rank = 0; rank < 6; ++rank) {
-      Slices part(random() % 4);
+      DeepSlices part(random() % 4);
       for (SliceSymbol& symbol : part) symbol = test::randomSymbol(random);
-      ranks.push_back(segment(part, static_cast<float>(ray.size())));
+      ranks.push_back(deepSegment(part, static_cast<float>(ray.size())));
       ray.insert(ray.end(), part.begin(), part.end());
     }
     ray.push_back(SliceSymbol::kEmpty);
@@ -103,8 +103,8 @@ TEST(SilhouetteDepth, RanksTogetherSeeWhatOneSees) {
 
 TEST(SilhouetteDepth, WithoutDepthsItIsSilhouette) {
   for (int length = 0; length <= 8; ++length) {
-    test::forEachRay(length, [](const Slices& slices) {
-      const Pixel pixel = segment(slices, 0);
+    test::forEachRay(length, [](const DeepSlices& slices) {
+      const Pixel pixel = deepSegment(slices, 0);
       SilhouetteCode code{};
       for (const SliceSymbol symbol : slices) {
         code = Silhouette::combine(code, Silhouette::slice(symbol));

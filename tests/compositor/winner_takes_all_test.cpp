@@ -37,8 +37,8 @@ TEST(Nearest, TiesKeepTheFront) {
 
 template <typename A>
 class WinnerTakesAll : public testing::Test {};
-using Algebras = testing::Types<Maximum, Nearest>;
-TYPED_TEST_SUITE(WinnerTakesAll, Algebras);
+using ExclusiveAlgebras = testing::Types<Maximum, Nearest>;
+TYPED_TEST_SUITE(WinnerTakesAll, ExclusiveAlgebras);
 
 TYPED_TEST(WinnerTakesAll, NothingLosesWhateverItsColourIs) {
   using A = TypeParam;

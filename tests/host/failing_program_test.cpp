@@ -22,7 +22,7 @@ using ::testing::HasSubstr;
 using ::testing::Matcher;
 
 /// All of the volume shows.
-constexpr const char* kScene = R"({"schema_version": 1,
+constexpr const char* kFailingScene = R"({"schema_version": 1,
   "volume": {"procedural": "shells", "dims": [6, 5, 4]},
   "image": {"size": [64, 48]},
   "layers": [{"transfer_function": {"points": [
@@ -43,7 +43,7 @@ class FailingProgram : public ::testing::TestWithParam<int> {
   }
 
   const TemporaryFolder folder_;
-  const std::string scene_ = folder_.write("s.json", kScene);
+  const std::string scene_ = folder_.write("s.json", kFailingScene);
   const std::string picture_ = folder_ / "a.png";
 };
 

@@ -29,7 +29,7 @@ using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-constexpr const char* kScene = R"({"schema_version": 1,
+constexpr const char* kRankScene = R"({"schema_version": 1,
   "volume": {"procedural": "shells", "dims": [12, 10, 8], "type": "f32"},
   "image": {"size": [48, 40]},
   "layers": [{"transfer_function": {"points": [
@@ -67,7 +67,7 @@ class FailingRank : public ::testing::TestWithParam<int> {
   }
 
   const TemporaryFolder folder_;
-  const std::string scene_ = folder_.write("s.json", kScene);
+  const std::string scene_ = folder_.write("s.json", kRankScene);
 };
 
 TEST_P(FailingRank, ThrowsAtAnyTime) {

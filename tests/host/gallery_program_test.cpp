@@ -21,7 +21,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-constexpr const char* kScene = R"({
+constexpr const char* kGalleryScene = R"({
   "schema_version": 1,
   "volume": {"procedural": "shells", "dims": [24, 24, 24], "type": "f32"},
   "image": {"size": [400, 300], "background": "#d0e0f0"},
@@ -31,7 +31,7 @@ constexpr const char* kScene = R"({
                  {"value": 0.7, "color": "#fff0e0", "opacity": 0.3}],
       "opacity_unit_length": 1}}]})";
 
-struct ReadPicture {
+struct SheetPicture {
   int width = 0;
   int height = 0;
   std::vector<std::uint8_t> bytes;  // 3 channels
@@ -41,10 +41,10 @@ struct ReadPicture {
   }
 };
 
-ReadPicture readPicture(const std::string& file) {
+SheetPicture readSheet(const std::string& file) {
   const auto in = OIIO::ImageInput::open(file);
   if (!in) throw std::runtime_error{file + ": " + OIIO::geterror()};  // fails the test
-  ReadPicture picture{in->spec().width, in->spec().height, {}};
+  SheetPicture picture{in->spec().width, in->spec().height, {}};
   EXPECT_EQ(in->spec().nchannels, 3);
   picture.bytes.resize(in->spec().image_pixels() * 3);
   EXPECT_TRUE(in->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, picture.bytes.data()));
@@ -53,7 +53,7 @@ ReadPicture readPicture(const std::string& file) {
 
 class Gallery : public ::testing::Test {
  protected:
-  Gallery() { std::ofstream{path("s.json")} << kScene; }
+  Gallery() { std::ofstream{path("s.json")} << kGalleryScene; }
 
   std::string path(const char* name) const { return folder_ / name; }
 
@@ -74,7 +74,7 @@ TEST_F(Gallery, PanelsAreWhatRenderDraws) {
   run({"gallery", path("s.json"), "-o", path("sheet.png"), "--styles", "plain,technical,pen-lines",
        "--columns", "2", "--size", "48x48", "--quiet"},
       3);
-  const ReadPicture sheet = readPicture(path("sheet.png"));
+  const SheetPicture sheet = readSheet(path("sheet.png"));
   EXPECT_EQ(sheet.width, kGap + 2 * (kSide + kGap));
   const int rowHeight = (sheet.height - kGap) / 2;
   EXPECT_GT(rowHeight, kSide + kGap);
@@ -83,7 +83,7 @@ TEST_F(Gallery, PanelsAreWhatRenderDraws) {
     SCOPED_TRACE(style);
     run({"render", path("s.json"), "-o", path("one.png"), "--size", "48x48", "--set",
          "layers.0.style=" + style, "--quiet"});
-    const ReadPicture one = readPicture(path("one.png"));
+    const SheetPicture one = readSheet(path("one.png"));
     int worst = 0;
     for (int y = 0; y < kSide; ++y)
       for (int x = 0; x < kSide; ++x)
@@ -106,13 +106,13 @@ TEST_F(Gallery, PanelsAreWhatRenderDraws) {
 TEST_F(Gallery, AVolumeAloneDrawsEveryStyle) {
   run({"make-volume", "shells", "--dims", "12,12,12", "-o", path("v.nrrd")});
   run({"gallery", path("v.nrrd"), "-o", path("sheet.png"), "--size", "16x16", "--quiet"});
-  const ReadPicture sheet = readPicture(path("sheet.png"));
+  const SheetPicture sheet = readSheet(path("sheet.png"));
   EXPECT_GE((sheet.width - kGap) / (16 + kGap), 4);  // 12 styles or more
 }
 
 TEST_F(Gallery, SeveralInputsAreEachDrawnAsTheyAre) {
   // A scene, the same volume otherwise, and another volume without a scene.
-  std::string other = kScene;
+  std::string other = kGalleryScene;
   other.replace(other.find("#fff0e0"), 7, "#20c040");
   std::ofstream{path("other.json")} << other;
   run({"make-volume", "marschner-lobb", "--dims", "12,12,12", "-o", path("v.nrrd")});
@@ -120,12 +120,12 @@ TEST_F(Gallery, SeveralInputsAreEachDrawnAsTheyAre) {
   run({"gallery", inputs[0], inputs[1], inputs[2], "-o", path("sheet.png"), "--columns", "3",
        "--size", "32x32", "--quiet"},
       2);
-  const ReadPicture sheet = readPicture(path("sheet.png"));
+  const SheetPicture sheet = readSheet(path("sheet.png"));
   for (const int i : {1, 2}) {
     const std::string& input = inputs[static_cast<std::size_t>(i)];
     SCOPED_TRACE(input);
     run({"render", input, "-o", path("one.png"), "--size", "32x32", "--quiet"}, 2);
-    const ReadPicture one = readPicture(path("one.png"));
+    const SheetPicture one = readSheet(path("one.png"));
     int worst = 0;
     for (int y = 0; y < 32; ++y)
       for (int x = 0; x < 32; ++x)

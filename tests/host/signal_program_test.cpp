@@ -17,7 +17,7 @@ using test::runBurin;
 using test::TemporaryFolder;
 using ::testing::MatchesRegex;
 
-constexpr const char* kScene = R"({"schema_version": 1,
+constexpr const char* kSignalScene = R"({"schema_version": 1,
   "volume": {"procedural": "shells", "dims": [40, 40, 40], "type": "f32"},
   "image": {"size": [200, 150]},
   "layers": [{"transfer_function": {"points": [
@@ -35,7 +35,7 @@ TEST_P(Signal, EndsTheProgramAndLeavesWholeFilesOnly) {
   // From before MPI has started to well within the frames.
   for (const double seconds : {0.05, 0.3, 0.7, 1.5}) {
     const TemporaryFolder folder;
-    const std::string scene = folder.write("s.json", kScene);
+    const std::string scene = folder.write("s.json", kSignalScene);
     SCOPED_TRACE(seconds);
     const auto result = runBurin(
         {"render", scene, "-o", folder / "a.exr", "--frames", "100000", "--stats",

@@ -20,7 +20,7 @@ using test::TemporaryFolder;
 using ::testing::ElementsAre;
 using ::testing::IsSupersetOf;
 
-constexpr const char* kScene = R"({"schema_version": 1,
+constexpr const char* kTracedScene = R"({"schema_version": 1,
   "volume": {"procedural": "shells", "dims": [20, 18, 16], "type": "f32"},
   "image": {"size": [64, 48]},
   "layers": [{"transfer_function": {"points": [
@@ -89,7 +89,7 @@ std::set<std::string> namesIn(const Row& row) {
 class Trace : public ::testing::TestWithParam<int> {
  protected:
   void draw() {
-    const std::string scene = folder_.write("s.json", kScene);
+    const std::string scene = folder_.write("s.json", kTracedScene);
     const auto result = runBurin({"render", scene, "-o", folder_ / "a.png", "--frames", "3",
                                   "--trace", folder_ / "c.json", "--stats", folder_ / "t.json"},
                                  GetParam());

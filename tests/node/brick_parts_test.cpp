@@ -13,8 +13,8 @@ namespace burin::test {
 namespace {
 
 // Textures of other sizes, as in brick_invariance_test.cpp.
-constexpr double kLargest = 5e-5;
-constexpr double kRms = 2e-6;
+constexpr double kLargestOfParts = 5e-5;
+constexpr double kRmsOfParts = 2e-6;
 
 /// Balls in emptiness, values rising from 0 at their surface to 1 over a dozen voxels; u16.
 ArraySource balls(const glm::ivec3& dims) {
@@ -57,8 +57,8 @@ TEST(BrickParts, ThePictureIsThatOfWholeBricks) {
           drawAlone(scene, source, camera, {.bricks = bricks, .skip = false}, &off);
       EXPECT_GT(largestAlpha(all), 0.3);
       const Difference d = difference(drawn, all);
-      EXPECT_LE(d.largest, kLargest) << style << " " << bricks;
-      EXPECT_LE(d.rms, kRms) << style << " " << bricks;
+      EXPECT_LE(d.largest, kLargestOfParts) << style << " " << bricks;
+      EXPECT_LE(d.rms, kRmsOfParts) << style << " " << bricks;
       EXPECT_TRUE(std::ranges::equal(drawn.pixels(), unskipped.pixels())) << style;
       EXPECT_LT(parts.residentVoxelBytes, whole.residentVoxelBytes) << style << " " << bricks;
       EXPECT_EQ(parts.residentVoxelBytes, off.residentVoxelBytes);
@@ -99,8 +99,8 @@ TEST(BrickParts, EditsLoadWhatTheyNeed) {
     }
     EXPECT_TRUE(std::ranges::equal(images[0].pixels(), images[1].pixels())) << "edit " << i;
     const Difference d = difference(images[0], images[2]);
-    EXPECT_LE(d.largest, kLargest) << "edit " << i;
-    EXPECT_LE(d.rms, kRms) << "edit " << i;
+    EXPECT_LE(d.largest, kLargestOfParts) << "edit " << i;
+    EXPECT_LE(d.rms, kRmsOfParts) << "edit " << i;
     const std::int64_t bytes = statistics[0].residentVoxelBytes;
     EXPECT_EQ(bytes, statistics[1].residentVoxelBytes);
     EXPECT_LE(bytes, statistics[2].residentVoxelBytes);

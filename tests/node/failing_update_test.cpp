@@ -33,7 +33,7 @@ class FailingSource : public ArraySource {
   int loads_ = 0;
 };
 
-Scene sceneOf(const std::string& style, const node::BrickSource& source) {
+Scene styledScene(const std::string& style, const node::BrickSource& source) {
   Scene scene = sceneWithStyle(style);
   scene.quality.preintegrated = style != "plain";  // so that another style needs more layers
   return resolved(scene, source);
@@ -41,8 +41,8 @@ Scene sceneOf(const std::string& style, const node::BrickSource& source) {
 
 TEST(FailingUpdate, IsOneErrorOnAllRanksAndCanBeRepeated) {
   FailingSource source{gridOf({30, 37, 26})};
-  const Scene before = sceneOf("plain", source);
-  const Scene after = sceneOf("light", source);
+  const Scene before = styledScene("plain", source);
+  const Scene after = styledScene("light", source);
   const Camera camera = resolveCamera(after, {source.info().grid, false});
   node::Worker reference{world(), before, source, {}};
   const int loadsBefore = source.loads();

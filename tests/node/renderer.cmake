@@ -36,11 +36,13 @@ burin_add_renderer_test(balanced_tree_test RANKS 1)
 burin_add_renderer_test(gl_backends_test RANKS 1 TIMEOUT 300)
 
 # What of it takes all ranks together.
-add_test(NAME labels_test_3 COMMAND ${BURIN_MPIRUN} -n 3 $<TARGET_FILE:labels_test>
+burin_test_command(labels_test labels_test)
+add_test(NAME labels_test_3 COMMAND ${BURIN_MPIRUN} -n 3 ${labels_test}
   --gtest_filter=*FailAllRanks:LabelSurvey.*)
 burin_set_test(labels_test_3 TIMEOUT 120 PROCESSORS 2 LABELS node gl mpi)
 
 # One scene on 13 ranks: an odd count far above the cores.
-add_test(NAME rank_invariance_test_13 COMMAND ${BURIN_MPIRUN} -n 13
-  $<TARGET_FILE:rank_invariance_test> --gtest_filter=RankInvariance.MoreBricksThanRanks)
+burin_test_command(rank_invariance_test rank_invariance_test)
+add_test(NAME rank_invariance_test_13 COMMAND ${BURIN_MPIRUN} -n 13 ${rank_invariance_test}
+  --gtest_filter=RankInvariance.MoreBricksThanRanks)
 burin_set_test(rank_invariance_test_13 TIMEOUT 120 PROCESSORS 2 LABELS node gl mpi)

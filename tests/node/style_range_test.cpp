@@ -10,8 +10,8 @@ namespace burin::test {
 namespace {
 
 // Bounds of brick_invariance_test.cpp.
-constexpr double kLargest = 5e-5;
-constexpr double kRms = 2e-6;
+constexpr double kLargestOfRange = 5e-5;
+constexpr double kRmsOfRange = 2e-6;
 
 /// A parameter at one end of its range; words go through all their choices.
 ParameterValue atEnd(const ParameterSpec& parameter, bool upper, std::size_t round) {
@@ -79,7 +79,7 @@ TEST_P(StyleRange, EndsAgreeWithTheReferenceOnAnyBricks) {
       EXPECT_LE(few.difference().largest,
                 spec.name == "silhouette" ? kSilhouetteBound : kReferenceBound);
       const Difference d = difference(few.drawn, drawAlone(scene, source, camera, {.bricks = 5}));
-      EXPECT_LE(d.largest, kLargest);
+      EXPECT_LE(d.largest, kLargestOfRange);
     }
 }
 
@@ -100,8 +100,8 @@ TEST(StylePairs, AgreeWithTheReferenceOnAnyBricks) {
     const DrawnAndTrue few = drawWithReference(scene, source, camera, {.bricks = 2});
     EXPECT_LE(few.difference().largest, kReferenceBound) << set;
     const Difference d = difference(few.drawn, drawAlone(scene, source, camera, {.bricks = 5}));
-    EXPECT_LE(d.largest, kLargest) << set;
-    EXPECT_LE(d.rms, kRms) << set;
+    EXPECT_LE(d.largest, kLargestOfRange) << set;
+    EXPECT_LE(d.rms, kRmsOfRange) << set;
   }
 }
 

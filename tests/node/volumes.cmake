@@ -14,7 +14,6 @@ burin_add_mpi_test(survey_test RANKS 1 2 3 5
   SOURCES survey_test.cpp read_slabs_test.cpp
   LIBRARIES burin::volumes ZLIB::ZLIB
   LABELS node sanitize TIMEOUT 120)
-burin_unity(volume_test survey_test)
 burin_add_mpi_test(real_volume_test RANKS 2
   SOURCES real_volume_test.cpp
   LIBRARIES burin::volumes ZLIB::ZLIB

@@ -9,6 +9,7 @@
 #include <memory>
 #include <string>
 
+#include "support/chosen_files.hpp"
 #include "support/mpi_test.hpp"
 
 namespace burin::test {
@@ -45,6 +46,7 @@ int runTests(int* argc, char** argv) {
   const Communicator comm{MPI_COMM_WORLD};
   worldOfTests = &comm;
   testing::InitGoogleTest(argc, argv);
+  runChosenFilesOnly(*argc, argv);
   if (!comm.isRoot()) {
     GTEST_FLAG_SET(output, "");  // one report file, rank 0's
     auto& listeners = testing::UnitTest::GetInstance()->listeners();
