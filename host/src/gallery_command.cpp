@@ -79,13 +79,13 @@ class Gallery {
     if (hasInputs_) {
       count_ = static_cast<int>(options_.inputs.size());
     } else {
-      chooseStyles();
+      onRoot(comm_, [&] { styles_ = chosenStyles(options_.styles); });
       progress_.show("reading the volume");
       prepared_ = prepareScene(comm_, options_.render);
-      unstyled_ = prepared_.scene;
       onRoot(comm_, [&] {
         checkConflicts(options_.render, prepared_.scene.volume.file, prepared_.scene.labels.file);
       });
+      makeScenes();
     }
     SheetLayout layout;
     onRoot(comm_, [&] {
@@ -116,14 +116,18 @@ class Gallery {
  private:
   static constexpr int kTitleLines = 3;
 
-  void chooseStyles() {
-    std::int64_t count = 0;
-    onRoot(comm_, [&] {
-      styles_ = chosenStyles(options_.styles);
-      count = static_cast<std::int64_t>(styles_.size());
-    });
+  /// Collective. The input in every style.
+  void makeScenes() {
+    unstyled_ = prepared_.scene;
+    std::int64_t count = static_cast<std::int64_t>(styles_.size());
     allReduce(comm_, std::span{&count, 1}, MPI_MAX);
     count_ = static_cast<int>(count);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count_); ++i) {
+      std::string text;
+      onRoot(comm_, [&] { text = writeScene(inStyle(unstyled_, styles_[i])); });
+      text = broadcastText(comm_, std::move(text), Rank{0});
+      together(comm_, "the style", [&] { scenes_.push_back(parseScene(text, "gallery")); });
+    }
   }
 
   /// The signal that some rank got, or 0.
@@ -144,12 +148,7 @@ class Gallery {
 
   /// Draws the scene in that style from now on; returns its label (of rank 0).
   std::string showStyle(int index) {
-    std::string text;
-    onRoot(comm_, [&] {
-      text = writeScene(inStyle(unstyled_, styles_[static_cast<std::size_t>(index)]));
-    });
-    text = broadcastText(comm_, std::move(text), Rank{0});
-    together(comm_, "the style", [&] { prepared_.scene = parseScene(text, "gallery"); });
+    prepared_.scene = scenes_[static_cast<std::size_t>(index)];
     showScene();
     return comm_.isRoot() ? styles_[static_cast<std::size_t>(index)].name : "";
   }
@@ -178,6 +177,7 @@ class Gallery {
     if (frames_) return frames_->update(prepared_.scene);
     node::WorkerOptions worker = options_.render.worker;
     worker.views = {resolveCamera(prepared_.scene, prepared_.facts)};
+    worker.foreseen = scenes_;
     frames_ = makeRaycastFrames(comm_, prepared_, worker, options_.render.merge);
   }
 
@@ -200,6 +200,7 @@ class Gallery {
   Progress progress_;
   int count_ = 0;
   std::vector<NamedStyle> styles_;  ///< on rank 0
+  std::vector<Scene> scenes_;       ///< the one input's, one for each style
   Scene unstyled_;                  ///< the one input's
   PreparedScene prepared_;          ///< of the panel that is drawn
   std::unique_ptr<FrameMaker> frames_;

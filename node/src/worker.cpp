@@ -20,8 +20,23 @@
 namespace burin::node {
 namespace {
 
+// What is measured and loaded for a scene, for the foreseen ones at the same time.
+
 int ghostLayers(const Scene& scene, const WorkerOptions& options) {
-  return options.ghostLayers.value_or(ghostLayersNeeded(scene));
+  int most = ghostLayersNeeded(scene);
+  for (const Scene& other : options.foreseen) most = std::max(most, ghostLayersNeeded(other));
+  return options.ghostLayers.value_or(most);
+}
+
+bool loadsLaplacian(const Scene& scene, const WorkerOptions& options) {
+  return laplacianNeeded(scene) || std::ranges::any_of(options.foreseen, laplacianNeeded);
+}
+
+SurveyRequest surveyFor(const Scene& scene, const WorkerOptions& options) {
+  SurveyRequest request{gradientOperatorsNeeded(scene), loadsLaplacian(scene, options)};
+  for (const Scene& other : options.foreseen)
+    request.gradients = request.gradients | gradientOperatorsNeeded(other);
+  return request;
 }
 
 /// `withLaplacian`: bricks have a texture of it too.
@@ -145,7 +160,8 @@ struct Worker::State {
 
   Shown whatShows(const Scene& next) const;
   DrawingCost costOf(const Scene& next, const Shown& what) const;
-  IndexBox neededPart(BrickId brick, const Shown& what, int ghostLayers) const;
+  std::vector<std::uint8_t> foreseenBlocks() const;
+  IndexBox neededPart(BrickId brick, std::span<const std::uint8_t> marks, int ghostLayers) const;
   bool isSplitBadly(const Scene& next, const Shown& what) const;
   bool isLoaded(const Scene& next, const Shown& what) const;
   std::size_t sharedBytes() const;
@@ -183,11 +199,26 @@ DrawingCost Worker::State::costOf(const Scene& next, const Shown& what) const {
   return DrawingCost{std::move(drawn)};
 }
 
-/// The cells of a brick that a scene can show anything of; not fewer with --skip off, so that both
-/// have the same textures: where a brick's texture ends changes the last bits of its look-ups.
-IndexBox Worker::State::neededPart(BrickId brick, const Shown& what, int ghostLayers) const {
+/// The cells of a brick that a scene can show anything of, by its Shown::blocks; not fewer with
+/// --skip off, so that both have the same textures: where a brick's texture ends changes the last
+/// bits of its look-ups.
+IndexBox Worker::State::neededPart(BrickId brick, std::span<const std::uint8_t> marks,
+                                   int ghostLayers) const {
   const IndexBox& cells = tree.brickCells(brick);
-  return options.wholeBricks ? cells : visiblePart(cells, what.blocks, blocks.cubes(), ghostLayers);
+  return options.wholeBricks ? cells : visiblePart(cells, marks, blocks.cubes(), ghostLayers);
+}
+
+/// Shown::blocks of the scene and the foreseen ones together.
+std::vector<std::uint8_t> Worker::State::foreseenBlocks() const {
+  std::vector<std::uint8_t> marks = shown.blocks;
+  const Scene* last = &scene;
+  for (const Scene& other : options.foreseen) {
+    if (showsTheSame(*last, other)) continue;
+    last = &other;
+    const Shown what = whatShows(other);
+    for (std::size_t i = 0; i < marks.size(); ++i) marks[i] |= what.blocks[i];
+  }
+  return marks;
 }
 
 /// Whether loading bricks anew is worth it: the split leaves one owner twice the mean cost of that
@@ -198,7 +229,7 @@ bool Worker::State::isSplitBadly(const Scene& next, const Shown& what) const {
   const double now = unevenness(tree, cost.with(tree));
   if (now <= 2) return false;
   const BrickTree other = partition(comm, cost, ghostLayers(next, options), source.info(), scale,
-                                    laplacianNeeded(next), options);
+                                    loadsLaplacian(next, options), options);
   return unevenness(other, cost.with(other)) < 0.75 * now;
 }
 
@@ -209,7 +240,7 @@ bool Worker::State::isLoaded(const Scene& next, const Shown& what) const {
       !surveyed.gradients.contains(gradientOperatorsNeeded(next)))
     return false;
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    const IndexBox needed = neededPart(BrickId{static_cast<std::uint32_t>(i)}, what, layers);
+    const IndexBox needed = neededPart(BrickId{static_cast<std::uint32_t>(i)}, what.blocks, layers);
     if (!needed.empty() && !parts[i].contains(needed)) return false;
   }
   return true;
@@ -265,7 +296,7 @@ void Worker::State::setRenderers() {
 
 /// Collective. The survey, and what follows from it, if the scene needs more than there is.
 void Worker::State::measure() {
-  const SurveyRequest needed{gradientOperatorsNeeded(scene), laplacianNeeded(scene)};
+  const SurveyRequest needed = surveyFor(scene, options);
   if (isSurveyed && surveyed.gradients.contains(needed.gradients) &&
       needed.laplacian <= surveyed.laplacian)
     return;
@@ -313,13 +344,15 @@ void Worker::State::loadParts() {
   const VolumeInfo& volume = source.info();
   measure();
   measureLabels(scene);
+  for (const Scene& other : options.foreseen) measureLabels(other);
   shown = whatShows(scene);
   ghosts = ghostLayers(scene, options);
-  hasLaplacian = laplacianNeeded(scene);
+  hasLaplacian = loadsLaplacian(scene, options);
   tree = partition(comm, costOf(scene, shown), ghosts, volume, scale, hasLaplacian, options);
   parts.clear();
+  const std::vector<std::uint8_t> marks = foreseenBlocks();
   for (std::size_t i = 0; i < tree.brickCount(); ++i)
-    parts.push_back(neededPart(BrickId{static_cast<std::uint32_t>(i)}, shown, ghosts));
+    parts.push_back(neededPart(BrickId{static_cast<std::uint32_t>(i)}, marks, ghosts));
   const int owner = static_cast<int>(comm.rank()) - static_cast<int>(firstOwner);
   mine = owner >= 0 && owner < tree.ownerCount() ? tree.bricksOf(owner) : std::vector<BrickId>{};
   const auto part = [&](BrickId id) { return parts[static_cast<std::size_t>(id)]; };

@@ -108,6 +108,47 @@ TEST(SceneUpdate, AfterAnyEditsSkippingChangesNothing) {
   }
 }
 
+/// Counts how often it is asked for voxels.
+class CountingSource : public ArraySource {
+ public:
+  using ArraySource::ArraySource;
+  void load(const IndexBox& region, std::span<std::byte> out) override {
+    ++loads;
+    ArraySource::load(region, out);
+  }
+  int loads = 0;
+};
+
+// What styles need of the volume, each more than the one before: an operator's gradients, the
+// Laplacian, ghost layers.
+TEST(SceneUpdate, WhatIsForeseenIsLoadedOnce) {
+  CountingSource source{gridOf({30, 37, 26}, {1, 1.2, 0.9}), [](glm::ivec3 i) {
+                          return static_cast<float>(smoothField(glm::dvec3{i}));
+                        }};
+  std::vector<Scene> scenes;
+  for (const char* style : {"plain", "sobel", "laplacian", "halo"})
+    scenes.push_back(resolved(sceneWithStyle(style), source));
+  scenes.back().layers[0].styles[0].values[0] = 4.0;  // the halo's radius
+  const Camera camera = resolveCamera(scenes[0], {source.info().grid, false});
+  const Communicator self{MPI_COMM_SELF};
+  for (const bool isForeseen : {false, true}) {
+    node::WorkerOptions options{.bricks = 2};
+    if (isForeseen) options.foreseen = scenes;
+    node::Worker worker{self, scenes[0], source, options};
+    for (std::size_t i = 1; i < scenes.size(); ++i) {
+      const int before = source.loads;
+      worker.update(scenes[i]);
+      EXPECT_EQ(source.loads == before, isForeseen) << i;
+      if (!isForeseen) continue;
+      RankStatistics statistics;
+      const Image<Rgba> updated = wholeFrame(worker.draw(camera, statistics));
+      const Difference d = difference(updated, drawAlone(scenes[i], source, camera, {.bricks = 2}));
+      EXPECT_LE(d.largest, 5e-5) << i;
+      EXPECT_LE(d.rms, 2e-6) << i;
+    }
+  }
+}
+
 // Loading bricks again drops the ones before, which takes their context, and another worker had
 // one since.
 TEST(SceneUpdate, BricksAreLoadedAgainAfterAnotherWorkerIsGone) {

@@ -36,6 +36,10 @@ struct WorkerOptions {
   /// Views for which the bricks are to be balanced (the same on all ranks); others can be drawn as
   /// well. Empty: for none in particular.
   std::vector<Camera> views = {};
+  /// Scenes that the worker may be updated to, resolved, the same on all ranks: what they need of
+  /// the volume beside the first one's needs (gradients, the Laplacian, ghost layers) is measured
+  /// and loaded with it.
+  std::vector<Scene> foreseen = {};
   /// The label volume (checkLabelVolume), which must still be there for updates; needed for scenes
   /// with layers that are bound to labels.
   BrickSource* labels = nullptr;
