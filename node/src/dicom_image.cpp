@@ -18,10 +18,15 @@
 namespace burin::node {
 namespace {
 
-/// The text of an element on one line, without the padding; empty if it is not there.
+/// The text of an element on one line, without the padding; empty if it is not there. DCMTK makes
+/// room for as many bytes as an element says that it has, so none is believed that is no text's.
 std::string textOf(DcmItem& item, const DcmTagKey& tag) {
+  constexpr std::uint32_t kLongestText = 1 << 16;
+  DcmElement* element = nullptr;
+  if (item.findAndGetElement(tag, element).bad() || element->getLengthField() > kLongestText)
+    return "";
   OFString found;
-  if (item.findAndGetOFStringArray(tag, found).bad()) return "";
+  if (element->getOFStringArray(found).bad()) return "";
   std::string text{found.c_str()};  // ends at a zero byte
   std::ranges::replace_if(
       text, [](unsigned char c) { return c < ' '; }, ' ');

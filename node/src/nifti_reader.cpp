@@ -49,7 +49,10 @@ void checkCandidates(const fs::path& file) {
   for (const char* extension : kExtensions) {
     for (const char* packed : {"", ".gz", ".GZ"}) {
       const fs::path candidate = base.string() + extension + packed;
-      if (fs::exists(candidate) && !fs::is_directory(candidate)) regularFileSize(candidate);
+      std::error_code said;  // by what follows, of links that lead nowhere
+      const fs::file_type type = fs::status(candidate, said).type();
+      if (type != fs::file_type::not_found && type != fs::file_type::directory)
+        regularFileSize(candidate);
     }
   }
 }
@@ -75,15 +78,29 @@ void checkOwned(const std::string& file, Header* header) {
   checkHeader(file, *owned);
 }
 
-/// In the bytes' own order: only the readers of one version turn them. Older headers (ANALYZE) are
-/// left to the library.
+/// 1 or 2; 0 of older headers (ANALYZE), which are laid out as those of version 1. -1: no header,
+/// or not a whole one.
+int headerVersion(const std::string& name) {
+  nifti_2_header start{};  // the longer one
+  znzFile file = znzopen(name.c_str(), "rb", nifti_is_gzfile(name.c_str()));
+  if (znz_isnull(file)) return -1;
+  const std::size_t bytes = znzread(&start, 1, sizeof start, file);
+  znzclose(file);
+  const int version = nifti_header_version(reinterpret_cast<const char*>(&start), bytes);
+  return version == 2 && bytes < sizeof start ? -1 : version;
+}
+
+/// In the bytes' own order: only the readers of one version turn them.
 void checkHeader(const std::string& file) {
   const std::string name = headerName(file);
-  int version = 0;
-  std::free(nifti_read_header(name.c_str(), &version, 0));
+  const int version = headerVersion(name);
   int isSwapped = 0;
-  if (version == 1) checkOwned(file, nifti_read_n1_hdr(name.c_str(), &isSwapped, 0));
-  if (version == 2) checkOwned(file, nifti_read_n2_hdr(name.c_str(), &isSwapped, 0));
+  if (version == 2)
+    checkOwned(file, nifti_read_n2_hdr(name.c_str(), &isSwapped, 0));
+  else if (version >= 0)
+    checkOwned(file, nifti_read_n1_hdr(name.c_str(), &isSwapped, 0));
+  else
+    fail(ExitCode::kVolume, "{}: not a valid NIfTI header", file);
 }
 
 ImagePointer readHeader(const std::string& file) {
@@ -154,7 +171,8 @@ void setOrientation(const nifti_image& image, VolumeInfo& info) {
 }
 
 StoredVoxels storedVoxels(const std::string& name, const nifti_image& image) {
-  if (image.iname == nullptr || !fs::exists(image.iname)) {
+  std::error_code ignored;
+  if (image.iname == nullptr || !fs::exists(image.iname, ignored)) {
     fail(ExitCode::kVolume, "{}: the file with the voxels is missing (expected {})", name,
          image.iname == nullptr ? "an .img beside the header" : image.iname);
   }

@@ -98,14 +98,20 @@ bool isPattern(const std::string& name) {
   return false;
 }
 
-/// Throws unless every data file that the header names is a regular file: teem opens the first of
-/// them while it reads the header, and opening a FIFO would wait for ever.
-void checkDataFiles(const std::string& name) {
+/// Throws unless this is a header of NRRD, which teem would otherwise take for one of the other
+/// formats it knows, and unless every data file that it names is a regular file: teem opens the
+/// first of them while it reads the header, and opening a FIFO would wait for ever.
+void checkBeforeTeem(const std::string& name) {
   regularFileSize(name);
   const fs::path folder = fs::path{name}.parent_path();
   std::ifstream in{name, std::ios::binary};
   std::string line;
-  if (!readLine(in, line) || !line.starts_with("NRRD")) return;
+  constexpr std::string_view kMagic[] = {"NRRD00.01", "NRRD0001", "NRRD0002", "NRRD0003",
+                                         "NRRD0004",  "NRRD0005", "NRRD0006"};
+  if (!readLine(in, line) || std::ranges::find(kMagic, line) == std::end(kMagic)) {
+    fail(ExitCode::kVolume, "{}: bad NRRD header: its first line is not {} ... {}", name, kMagic[1],
+         kMagic[6]);
+  }
   while (readLine(in, line) && !line.empty()) {
     const auto value = dataFileField(line);
     if (!value) continue;
@@ -120,7 +126,7 @@ void checkDataFiles(const std::string& name) {
 }
 
 Header readHeader(const std::string& name) {
-  checkDataFiles(name);
+  checkBeforeTeem(name);
   Header header;
   header.state->skipData = AIR_TRUE;
   header.state->keepNrrdDataFileOpen = AIR_TRUE;

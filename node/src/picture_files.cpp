@@ -104,7 +104,8 @@ bool isPicturePattern(const std::string& written) {
 
 std::vector<fs::path> pictureFiles(const std::string& written) {
   if (isPicturePattern(written)) return picturesLike(written);
-  if (fs::is_directory(written)) return picturesIn(written);
+  std::error_code ignored;
+  if (fs::is_directory(written, ignored)) return picturesIn(written);
   return {written};
 }
 

@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 
 #include "burin/common/error.hpp"
+#include "dicom_bytes.hpp"
 #include "nifti_bytes.hpp"
 #include "volume_files.hpp"
 
@@ -25,8 +26,12 @@ Error errorOf(const VolumeChoice& choice) {
   return Error{ExitCode::kDone, "nothing failed"};
 }
 
+/// What libraries have to say, whatever they are told, would be a second line.
 class VolumeErrors : public testing::Test {
  protected:
+  void SetUp() override { testing::internal::CaptureStderr(); }
+  void TearDown() override { EXPECT_EQ(testing::internal::GetCapturedStderr(), ""); }
+
   void expectError(const VolumeChoice& choice, ExitCode code,
                    const std::vector<std::string>& parts) {
     const Error error = errorOf(choice);
@@ -62,6 +67,7 @@ TEST_F(VolumeErrors, Files) {
 TEST_F(VolumeErrors, NrrdHeaders) {
   const std::string eight(8, 'v');
   expectError("garbage.nrrd", "NRRD0004\nno field at all\n\n", {"bad NRRD header", "no field"});
+  expectError("magic.nrrd", "NRRDnan\ntype: uint8\n\nv", {"bad NRRD header", "NRRD0006"});
   expectError("two.nrrd", nrrd("type: uint8\ndimension: 2\nsizes: 4 2\nencoding: raw", eight),
               {"2 dimensions", "4 x 2", "expected a volume with 3"});
   expectError("four.nrrd", nrrd("type: uint8\ndimension: 4\nsizes: 2 2 2 1\nencoding: raw", eight),
@@ -159,6 +165,22 @@ TEST_F(VolumeErrors, NiftiPartIsAFifo) {
               {"b.img", "not a regular file"});
 }
 
+TEST_F(VolumeErrors, LinksThatLeadNowhere) {
+  std::filesystem::create_symlink("loop.nrrd", folder_ / "loop.nrrd");
+  expectError(fileChoice(folder_ / "loop.nrrd"), ExitCode::kVolume,
+              {"loop.nrrd", "levels of symbolic links"});
+  std::filesystem::create_symlink("nowhere.nrrd", folder_ / "link.nrrd");
+  expectError(fileChoice(folder_ / "link.nrrd"), ExitCode::kVolume, {"link.nrrd", "no such file"});
+  NiftiBytes header;
+  header.magic = std::string{"ni1\0", 4};
+  header.voxOffset = 0;
+  std::filesystem::create_symlink("a.img", folder_ / "a.img");
+  expectError(fileChoice(folder_.write("a.hdr", header.bytes(false))), ExitCode::kVolume,
+              {"a.img", "levels of symbolic links"});
+  std::filesystem::create_symlink("s%d.png", folder_ / "s%d.png");
+  expectError(fileChoice(folder_ / "s%d.png"), ExitCode::kVolume, {"s%d.png"});
+}
+
 TEST_F(VolumeErrors, TruncatedRawFiles) {
   const std::string header =
       "NRRD0004\ntype: uint16\ndimension: 3\nsizes: 4 4 4\n"
@@ -172,19 +194,23 @@ TEST_F(VolumeErrors, TruncatedRawFiles) {
               {"truncated", "415 bytes found, 416 expected"});
 }
 
-// The library writes about these on stderr, whatever it is told.
-TEST_F(VolumeErrors, NiftiHeadersGetOneLine) {
+TEST_F(VolumeErrors, NiftiHeadersThatTheLibraryWritesAbout) {
   NiftiBytes unknownType;
   unknownType.datatype = 3;
   NiftiBytes tooMany;
   tooMany.dim[0] = 9;
   NiftiBytes empty;
   empty.dim[1] = 0;
-  testing::internal::CaptureStderr();
   expectError("type.nii", unknownType.bytes(false) + "v", {"voxel type 3", "expected u8"});
   expectError("many.nii", tooMany.bytes(false) + "v", {"dim is 9", "expected 1 to 7"});
   expectError("none.nii", empty.bytes(false) + "v", {"dim is 3, 0"});
-  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  for (NiftiBytes* header : {&unknownType, &tooMany, &empty}) header->magic = std::string(4, '\0');
+  expectError("old-type.nii", unknownType.bytes(false) + "v", {"voxel type 3", "expected u8"});
+  expectError("old-many.nii", tooMany.bytes(true) + "v", {"dim is", "expected 1 to 7"});
+  expectError("old-none.nii", empty.bytes(true) + "v", {"dim is 3, 0"});
+  std::string second = NiftiBytes{}.bytes(false) + "v";
+  second.replace(0, 12, encoded(std::int32_t{540}, false) + std::string{"n+2\0\r\n\032\n", 8});
+  expectError("second.nii", second, {"not a valid NIfTI header"});
 }
 
 TEST_F(VolumeErrors, Gzip) {
@@ -245,6 +271,28 @@ TEST_F(VolumeErrors, Nifti) {
   header.magic = std::string{"ni1\0", 4};
   header.voxOffset = 0;
   expectError("lonely.hdr", header.bytes(false), {".img"});
+}
+
+/// The most memory that this process has had addresses for.
+std::uint64_t mostAddresses() {
+  std::ifstream in{"/proc/self/status"};
+  std::string word;
+  std::uint64_t kibibytes = 0;
+  while (in >> word && word != "VmPeak:") continue;
+  in >> kibibytes;
+  return kibibytes << 10;
+}
+
+// Where a number of 16 bits stands elsewhere, a text of 4 GB is announced.
+TEST_F(VolumeErrors, DicomTextThatLies) {
+  std::string bytes = DicomBytes{}.bytes();
+  const std::string bitsAllocated =
+      encoded(std::uint16_t{0x0028}, false) + encoded(std::uint16_t{0x0100}, false);
+  const std::size_t at = bytes.find(bitsAllocated + "US") + bitsAllocated.size();
+  bytes.replace(at, 6, "UT" + std::string(2, '\0') + encoded(std::uint32_t{0xfb000004}, false));
+  const std::uint64_t before = mostAddresses();
+  expectError("lie.dcm", bytes, {"pixels of 0 bits"});
+  EXPECT_LT(mostAddresses() - before, std::uint64_t{1} << 30);
 }
 
 TEST_F(VolumeErrors, RawChoices) {
