@@ -34,7 +34,7 @@ burin_library(node
            src/gl_program.cpp src/curve_code.cpp src/widget_code.cpp src/direction_palette.cpp src/program_generator.cpp
            src/transfer_integral.cpp src/transfer_table.cpp
           src/visible_values.cpp src/value_scale.cpp src/value_ranges.cpp src/clip_planes.cpp
-          src/visible_blocks.cpp src/macrocells.cpp src/dilated_marks.cpp src/chessboard_distance.cpp
+          src/visible_blocks.cpp src/macrocell_ranges.cpp src/octant_plane.cpp src/macrocells.cpp src/dilated_marks.cpp src/chessboard_distance.cpp
           src/step_map.cpp src/brick_texture.cpp src/laplacian_texture.cpp src/label_masks.cpp src/label_texture.cpp
           src/visible_group.cpp src/brick.cpp src/cost_estimate.cpp
           src/extinction_means.cpp src/view_rays.cpp src/hiding.cpp src/drawing_cost.cpp

@@ -1,22 +1,24 @@
-// Empty-space skipping in one brick. The map holds, per macrocell of kCell^3 cells, the chessboard
-// distance in macrocells to the nearest one that may be visible, or, for one that may be visible
-// itself, minus the distance to the nearest one that cannot. Cells are aligned to the global grid. Leaving samples out never changes a picture: positions stay on
-// the lattice and only samples in empty macrocells are passed over.
+// Empty-space skipping in one brick. The map holds, per macrocell of kCell^3 cells, minus a mask of those
+// of its octants that may be visible (bit x + 2 y + 4 z), or, if none is, the chessboard distance in
+// macrocells to the nearest one in which some may be. Macrocells are aligned to the global grid. Leaving
+// samples out never changes a picture: positions stay on the lattice and only samples in empty octants
+// are passed over.
 
-uniform isampler3D distanceMap;  // filters to the nearest: texelFetch would cost twice as much
+uniform isampler3D cellMap;      // filters to the nearest: texelFetch would cost twice as much
 uniform vec3 cellOffset;         // added to a position: voxels from the map's corner
 uniform float skipEmpty;         // 0: visit everything (for comparison), else 1
 
 const float kCell = 4.0;   // kMacrocellSize in macrocells.hpp
 // Planes; far above the rounding of an exit, and at most 1e-3 voxels, by how much the ranges of
-// macrocells may be overstepped (Macrocells::finish).
+// macrocells may be overstepped (kWidening in octant_plane.cpp).
 uniform float exitMargin;
 
 // The ray in units of macrocells, and what leaving them takes.
 struct SkipState {
   vec3 origin, along;  // along is never 0
   vec3 inverse;        // of along
-  vec3 ahead;          // per axis 1 if the ray ascends, else 0
+  vec3 halves;         // planes that crossing half a macrocell takes along each axis
+  vec4 octantBits;     // number of the octant that a ray meets first; its change past the middles
   vec3 lastCell;       // of the map
   vec3 perMap;         // 1 / cells of the map
   float margin;        // exitMargin
@@ -33,8 +35,10 @@ SkipState beginSkipping(Ray ray, int j) {
   for (int axis = 0; axis < 3; ++axis)
     if (abs(state.along[axis]) < 1e-25) state.along[axis] = 1e-25;
   state.inverse = 1.0 / state.along;
-  state.ahead = vec3(greaterThan(state.along, vec3(0.0)));
-  vec3 cells = vec3(textureSize(distanceMap, 0));
+  state.halves = 0.5 * abs(state.inverse);
+  vec3 bits = mix(vec3(-1.0, -2.0, -4.0), vec3(1.0, 2.0, 4.0), greaterThan(state.along, vec3(0.0)));
+  state.octantBits = vec4(bits, dot(max(-bits, 0.0), vec3(1.0)));
+  vec3 cells = vec3(textureSize(cellMap, 0));
   state.lastCell = cells - 1.0;
   state.perMap = 1.0 / cells;
   state.margin = one * exitMargin;
@@ -45,34 +49,36 @@ SkipState beginSkipping(Ray ray, int j) {
   return state;
 }
 
-// The macrocell at `where` planes: whether it may be visible, and how far the ray stays in
-// macrocells of which the same is true.
-float macrocellExit(inout SkipState state, float where) {
-  vec3 cell = floor(state.origin + where * state.along);
-  cell = clamp(cell, vec3(0.0), state.lastCell);
-  int distance = texture(distanceMap, (cell + 0.5) * state.perMap).r;
-  state.occupied = distance < 0;
-  float reach = float(abs(distance) - 1);
-  vec3 corner = cell + state.ahead + (2.0 * state.ahead - 1.0) * reach;
-  vec3 exits = (corner - state.origin) * state.inverse;
+// The octant at `where` planes: whether it may be visible, and how far the ray stays in it, or in
+// macrocells that are empty as a whole.
+float octantExit(inout SkipState state, float where) {
+  vec3 cell = clamp(floor(state.origin + where * state.along), vec3(0.0), state.lastCell);
+  vec3 middle = cell + 0.5;
+  int entry = texture(cellMap, middle * state.perMap).r;
+  vec3 middles = (middle - state.origin) * state.inverse;
+  vec3 past = vec3(greaterThanEqual(vec3(where), middles));
+  int octant = int(dot(past, state.octantBits.xyz) + state.octantBits.w);
+  state.occupied = entry < 0 && (-entry >> octant & 1) != 0;
+  vec3 reach = entry < 0 ? past : vec3(2.0 * float(entry) - 1.0);  // half macrocells
+  vec3 exits = middles + reach * state.halves;
   return min(exits.x, min(exits.y, exits.z));
 }
 
 #ifdef COUNT_SAMPLES
-// Whether the macrocell at `where` planes may be visible.
+// Whether the octant at `where` planes may be visible.
 bool isOccupied(SkipState state, float where) {
-  vec3 cell = clamp(floor(state.origin + where * state.along), vec3(0.0), state.lastCell);
-  return texture(distanceMap, (cell + 0.5) * state.perMap).r < 0;
+  octantExit(state, where);
+  return state.occupied;
 }
 #endif
 
 // What is known of the segments from j on. Afterwards either segment j needs a visit, as do all
 // before knownUntil, or j was moved on to the next segment that may need one.
 #if defined(PREINTEGRATED) || defined(SURFACES)
-// A segment needs a visit if it crosses any macrocell that may be visible.
+// A segment needs a visit if it crosses any octant that may be visible.
 void lookAhead(Ray ray, inout int j, inout SkipState state) {
   float from = max(segmentBegin(ray, j), state.emptyUntil);
-  float exit = min(macrocellExit(state, from), ray.end + 1.0);
+  float exit = min(octantExit(state, from), ray.end + 1.0);
   // Without progress in this number format the segment counts as occupied.
   state.occupied = state.occupied || !(exit + state.margin > from);
   state.emptyUntil = state.occupied ? from : exit + state.margin;
@@ -82,10 +88,10 @@ void lookAhead(Ray ray, inout int j, inout SkipState state) {
   j = state.occupied || state.leaps <= 0.0 ? j : emptyBefore;
 }
 #else
-// A segment needs a visit if its sample is in a macrocell that may be visible.
+// A segment needs a visit if its sample is in an octant that may be visible.
 void lookAhead(Ray ray, inout int j, inout SkipState state) {
   float where = 0.5 * (segmentBegin(ray, j) + segmentEnd(ray, j));
-  float exit = min(macrocellExit(state, where), ray.end + 1.0);
+  float exit = min(octantExit(state, where), ray.end + 1.0);
   // Samples lie at j + 1/2, or before it in the last segment: all below the exit share this box.
   state.knownUntil = max(j + 1, int(ceil(exit - state.margin - 0.5)));
   j = state.occupied || state.leaps <= 0.0 ? j : state.knownUntil;

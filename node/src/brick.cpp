@@ -19,14 +19,14 @@ Brick::Brick(BrickId id, const IndexBox& cells, int ghostLayers, const VolumeInf
       cells_{cells},
       ghostLayers_{ghostLayers},
       texture_{burin::node::storedVoxels(cells, ghostLayers, volume.grid), volume.type, scale},
-      macrocells_{texture_.storedVoxels()},
-      distances_{makeTexture(GL_TEXTURE_3D)} {
+      macrocells_{texture_.storedVoxels(), volume.type != VoxelType::kF32},
+      map_{makeTexture(GL_TEXTURE_3D)} {
   if (laplacian999) laplacian_.emplace(texture_.storedVoxels(), volume.grid, scale, *laplacian999);
   const glm::ivec3 size = macrocells_.size();
-  gl().TextureStorage3D(distances_.id(), 1, GL_R8I, size.x, size.y, size.z);
-  gl().TextureParameteri(distances_.id(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-  gl().TextureParameteri(distances_.id(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-  checkGl("making a distance map");
+  gl().TextureStorage3D(map_.id(), 1, GL_R16I, size.x, size.y, size.z);
+  gl().TextureParameteri(map_.id(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  gl().TextureParameteri(map_.id(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  checkGl("making a map of macrocells");
 }
 
 void Brick::upload(const IndexBox& box, std::span<const std::byte> voxels, StagingBuffer& staging) {
@@ -44,40 +44,44 @@ void Brick::uploadLabels(const IndexBox& box, std::span<const MaskBits> masks) {
   labels_->upload(box, masks);
 }
 
-/// The macrocells in which some group shows something.
-std::vector<std::uint8_t> Brick::marksOf(std::span<const VisibleGroup> groups) const {
-  std::vector<std::uint8_t> marks(IndexBox{glm::ivec3{0}, macrocells_.size()}.count());
+/// Per macrocell the octants in which some group shows something.
+std::vector<OctantMask> Brick::marksOf(std::span<const VisibleGroup> groups) const {
+  std::vector<OctantMask> marks(IndexBox{glm::ivec3{0}, macrocells_.size()}.count());
   for (const VisibleGroup& group : groups) {
-    std::vector<std::uint8_t> part = macrocells_.mark(
-        [&](float lowest, float highest) { return group.values.any(lowest, highest); });
-    dilateMarks(part, macrocells_.size(), group.values.reach(kMacrocellSize));
+    std::vector<OctantMask> part = macrocells_.mark(group.values);
+    if (const int reach = group.values.reach(kMacrocellSize); reach > 0) {
+      dilateMarks(part, macrocells_.size(), reach);
+      for (OctantMask& mask : part) mask = mask != 0 ? kAllOctants : OctantMask{0};
+    }
     for (std::size_t i = 0; i < marks.size(); ++i)
-      if (part[i] != 0 && (!group.mask || (labels_->occurring()[i] >> *group.mask & 1) != 0))
-        marks[i] = 1;
+      if (!group.mask || (labels_->occurring()[i] >> *group.mask & 1) != 0) marks[i] |= part[i];
   }
   return marks;
 }
 
 void Brick::classify(std::span<const VisibleGroup> groups, std::span<const glm::vec4> clipPlanes) {
-  std::vector<std::uint8_t> marks = marksOf(groups);
+  std::vector<OctantMask> marks = marksOf(groups);
   clearClipped(marks, macrocells_.cubes(), clipPlanes, grid_);
   const IndexBox marked = macrocells_.boxOf(marks);
   visibleCells_ = marked.empty()
                       ? marked
                       : intersection({marked.lo - ghostLayers_, marked.hi + ghostLayers_}, cells_);
   const glm::ivec3 size = macrocells_.size();
-  const std::vector<std::int8_t> distances = signedChessboardDistance(marks, size);
+  const std::vector<std::uint8_t> distances = chessboardDistance(marks, size);
+  std::vector<std::int16_t> texels(marks.size());
+  for (std::size_t i = 0; i < texels.size(); ++i)  // one of the two is 0
+    texels[i] = static_cast<std::int16_t>(distances[i] - marks[i]);
   gl().PixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  gl().TextureSubImage3D(distances_.id(), 0, 0, 0, 0, size.x, size.y, size.z, GL_RED_INTEGER,
-                         GL_BYTE, distances.data());
-  checkGl("uploading a distance map");
+  gl().TextureSubImage3D(map_.id(), 0, 0, 0, 0, size.x, size.y, size.z, GL_RED_INTEGER, GL_SHORT,
+                         texels.data());
+  checkGl("uploading a map of macrocells");
 }
 
 std::size_t Brick::residentBytes() const {
   const glm::ivec3 size = macrocells_.size();
   return texture_.bytes() + (laplacian_ ? laplacian_->bytes() : 0) +
          (labels_ ? labels_->bytes() : 0) + macrocells_.bytes() +
-         IndexBox{glm::ivec3{0}, size}.count();
+         IndexBox{glm::ivec3{0}, size}.count() * sizeof(std::int16_t);
 }
 
 }  // namespace burin::node

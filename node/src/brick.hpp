@@ -32,7 +32,7 @@ class Brick {
   /// The masks of stored voxels, as upload().
   void uploadLabels(const IndexBox& box, std::span<const MaskBits> masks);
 
-  /// Distance map and visible cells for what the scene shows now. `clipPlanes`: as of
+  /// Map of macrocells and visible cells for what the scene shows now. `clipPlanes`: as of
   /// centredClipPlanes().
   void classify(std::span<const VisibleGroup> groups, std::span<const glm::vec4> clipPlanes);
 
@@ -40,11 +40,11 @@ class Brick {
   const IndexBox& cells() const { return cells_; }
   const IndexBox& storedVoxels() const { return texture_.storedVoxels(); }
   GLuint volumeTexture() const { return texture_.id(); }
-  GLuint distanceTexture() const { return distances_.id(); }
+  GLuint mapTexture() const { return map_.id(); }
   /// 0 if there is none.
   GLuint laplacianTexture() const { return laplacian_ ? laplacian_->id() : 0; }
   GLuint labelTexture() const { return labels_ ? labels_->id() : 0; }
-  /// First voxel of the distance map, global index.
+  /// First voxel of the map, global index.
   glm::ivec3 mapOrigin() const { return macrocells_.origin(); }
   /// Own cells in which segments may show something; empty if the brick shows nothing. A segment
   /// reaches as far beyond the cell of its middle as there are ghost layers, at most.
@@ -52,7 +52,7 @@ class Brick {
   std::size_t residentBytes() const;
 
  private:
-  std::vector<std::uint8_t> marksOf(std::span<const VisibleGroup> groups) const;
+  std::vector<OctantMask> marksOf(std::span<const VisibleGroup> groups) const;
 
   BrickId id_;
   VolumeGrid grid_;
@@ -62,7 +62,7 @@ class Brick {
   std::optional<LaplacianTexture> laplacian_;
   std::optional<LabelTexture> labels_;
   Macrocells macrocells_;
-  Texture distances_;
+  Texture map_;  ///< skip.glsl says what it holds
   IndexBox visibleCells_;
 };
 

@@ -103,22 +103,14 @@ class Scans {
 
 }  // namespace
 
-std::vector<std::int8_t> signedChessboardDistance(std::span<const std::uint8_t> marked,
-                                                  const glm::ivec3& size) {
-  const std::size_t count = marked.size();
-  BURIN_CHECK_EQ(count, static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) *
-                            static_cast<std::size_t>(size.z));
-  Row toMarked(count);
-  Row toOthers(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    toMarked[i] = marked[i] != 0 ? 0 : kLargest;
-    toOthers[i] = marked[i] != 0 ? kLargest : 0;
-  }
-  Scans{toMarked, size}.run();
-  Scans{toOthers, size}.run();
-  std::vector<std::int8_t> distances(count);
-  for (std::size_t i = 0; i < count; ++i)  // one of the two is 0
-    distances[i] = static_cast<std::int8_t>(toMarked[i] - toOthers[i]);
+std::vector<std::uint8_t> chessboardDistance(std::span<const std::uint8_t> marked,
+                                             const glm::ivec3& size) {
+  BURIN_CHECK_EQ(marked.size(), static_cast<std::size_t>(size.x) *
+                                    static_cast<std::size_t>(size.y) *
+                                    static_cast<std::size_t>(size.z));
+  Row distances(marked.size());
+  for (std::size_t i = 0; i < marked.size(); ++i) distances[i] = marked[i] != 0 ? 0 : kLargest;
+  Scans{distances, size}.run();
   return distances;
 }
 

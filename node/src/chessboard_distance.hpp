@@ -7,11 +7,10 @@
 
 namespace burin::node {
 
-/// Per cell of a grid (x fastest) the signed chessboard distance to the nearest cell of the other
-/// kind: positive for cells that are not `marked`, negative for those that are; at most
-/// kLargestDistance either way, which also stands where there is no cell of the other kind.
-std::vector<std::int8_t> signedChessboardDistance(std::span<const std::uint8_t> marked,
-                                                  const glm::ivec3& size);
+/// Per cell of a grid (x fastest) the chessboard distance to the nearest `marked` cell (not 0), 0
+/// for those that are; at most kLargestDistance, which also stands where there is none.
+std::vector<std::uint8_t> chessboardDistance(std::span<const std::uint8_t> marked,
+                                             const glm::ivec3& size);
 
 inline constexpr int kLargestDistance = 63;
 

@@ -40,12 +40,12 @@ std::vector<std::uint32_t> bricksOf(const BrickTree& tree, const CubeGrid& cubes
 std::vector<float> roundsOf(const DrawnBlocks& blocks) {
   std::vector<float> rounds;
   rounds.reserve(blocks.marks.size());
-  for (const std::int8_t distance : signedChessboardDistance(blocks.marks, blocks.cubes.size)) {
+  for (const std::uint8_t distance : chessboardDistance(blocks.marks, blocks.cubes.size)) {
     // From somewhere in a block, half a block from its end on average, a ray leaps to where the
     // nearest visible one could begin.
     const double leapCells = blocks.cubes.cubeCells * (distance - 0.5);
     rounds.push_back(
-        distance < 0 ? 1.0f : static_cast<float>(std::min(1.0, blocks.stepVoxels / leapCells)));
+        distance == 0 ? 1.0f : static_cast<float>(std::min(1.0, blocks.stepVoxels / leapCells)));
   }
   return rounds;
 }

@@ -196,7 +196,7 @@ void setCapUniforms(const GlProgram& program, const Scene& scene, const VolumeGr
 void setSceneUniforms(const GlProgram& program, const Scene& scene, const ProgramVolume& volume,
                       std::span<const TransferTable> tables, GLuint firstTransferUnit) {
   program.set("volume", static_cast<int>(kVolumeUnit));
-  program.set("distanceMap", static_cast<int>(kDistanceUnit));
+  program.set("cellMap", static_cast<int>(kCellMapUnit));
   program.set("laplacianField", static_cast<int>(kLaplacianUnit));
   program.set("labelMasks", static_cast<int>(kLabelUnit));
   const Box box = volume.grid.boxIndex();
@@ -289,7 +289,7 @@ void setBrickUniforms(const GlProgram& program, const Scene& scene, const Volume
 
 void bindTextures(const Brick& brick) {
   gl().BindTextureUnit(kVolumeUnit, brick.volumeTexture());
-  gl().BindTextureUnit(kDistanceUnit, brick.distanceTexture());
+  gl().BindTextureUnit(kCellMapUnit, brick.mapTexture());
   gl().BindTextureUnit(kLaplacianUnit, brick.laplacianTexture());
   gl().BindTextureUnit(kLabelUnit, brick.labelTexture());
 }

@@ -20,7 +20,7 @@ struct ProgramVolume {
 };
 
 inline constexpr GLuint kVolumeUnit = 0;
-inline constexpr GLuint kDistanceUnit = 1;
+inline constexpr GLuint kCellMapUnit = 1;
 inline constexpr GLuint kFrameUnit = 2;
 inline constexpr GLuint kLaplacianUnit = 3;
 inline constexpr GLuint kLabelUnit = 4;

@@ -7,8 +7,8 @@
 
 namespace burin::node {
 
-/// Smallest and largest stored value of each cube of a grid (macrocells, the survey's blocks),
-/// faces shared, x fastest; lowest > highest where a cube holds no finite voxel.
+/// Smallest and largest stored value of each cube of a grid (the survey's blocks), faces shared, x
+/// fastest; lowest > highest where a cube holds no finite voxel.
 struct ValueRanges {
   glm::ivec3 size{0};
   std::vector<float> lowest;
@@ -17,11 +17,6 @@ struct ValueRanges {
   ValueRanges() = default;
   /// No values yet.
   explicit ValueRanges(const glm::ivec3& cubes);
-
-  /// Widens every range towards its neighbours' by 2^-8 of the difference: a look-up at a position
-  /// that rounds across a cube's face (by at most 2048 * 2^-23 voxel in the texture unit) reads a
-  /// value outside the cube's own range by at most that.
-  void widen();
 
   /// Per cube 1 if visible(lowest, highest) says so of its range.
   template <typename Visible>

@@ -28,6 +28,13 @@ class VisibleValues {
     return false;
   }
 
+  /// Whether the same holds of every part of that range.
+  bool all(float lowest, float highest) const {
+    for (const Interval& interval : intervals_)
+      if (lowest > interval.lowest && highest < interval.highest) return true;
+    return false;
+  }
+
   /// How many cubes of that many cells a scene may show something beyond those that hold visible
   /// values.
   int reach(int cubeCells) const;

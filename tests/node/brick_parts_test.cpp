@@ -137,8 +137,8 @@ TEST(BrickParts, MemoryIsThatOfTheStoredBoxAndAFifthAtMost) {
     return static_cast<double>(statistics.residentVoxelBytes);
   };
   // All shows: the stored box is the volume. Of u8, u16 (2 bytes a voxel) and float (4). The
-  // macrocells' ranges and distances take 9 bytes per 64 voxels, the blocks' ranges and marks as
-  // many: 14 % of two bytes a voxel; the rest is for what does not grow with the volume.
+  // macrocells' ranges and map take 14 bytes per 64 voxels (of floats 18), the blocks' ranges and
+  // marks 9: 18 % of two bytes a voxel; the rest is for what does not grow with the volume.
   const VolumeGrid grid = gridOf({129, 101, 77});
   const auto voxels = static_cast<double>(grid.voxelCount());
   const auto opaque = [](double top) {

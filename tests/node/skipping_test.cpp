@@ -244,6 +244,18 @@ TEST(Skipping, CountingDoesNotChangeThePicture) {
   EXPECT_GT(counted.samplesShaded, 0);
 }
 
+/// Rays of a parallel view along z that meet a box of twice that many voxels a side.
+std::int64_t raysThrough(const Camera& camera, double halfVoxels) {
+  std::int64_t rays = 0;
+  const double half = halfVoxels / camera.pixelSize;
+  for (int y = 0; y < camera.image.height; ++y)
+    for (int x = 0; x < camera.image.width; ++x)
+      if (std::abs(x + 0.5 - 0.5 * camera.image.width) < half &&
+          std::abs(y + 0.5 - 0.5 * camera.image.height) < half)
+        ++rays;
+  return rays;
+}
+
 TEST(Skipping, SamplesOfAHomogeneousBoxAreCountedOnce) {
   // A parallel view along z of an 11×11×11 box at step 1/2: every ray through the box meets 20 or
   // 21 segments; the count must not depend on the bricks.
@@ -253,13 +265,7 @@ TEST(Skipping, SamplesOfAHomogeneousBoxAreCountedOnce) {
   scene.camera = {.azimuthDeg = 0, .elevationDeg = 0, .projection = Projection::kOrthographic};
   scene = resolved(scene, source);
   const Camera camera = resolveCamera(scene, {source.info().grid, false});
-  std::int64_t rays = 0;
-  const double half = 5 / camera.pixelSize;
-  for (int y = 0; y < camera.image.height; ++y)
-    for (int x = 0; x < camera.image.width; ++x)
-      if (std::abs(x + 0.5 - 0.5 * camera.image.width) < half &&
-          std::abs(y + 0.5 - 0.5 * camera.image.height) < half)
-        ++rays;
+  const std::int64_t rays = raysThrough(camera, 5);
   ASSERT_GT(rays, 100);
   for (const int bricks : {1, 2, 7, 30}) {
     RankStatistics statistics;
@@ -267,6 +273,30 @@ TEST(Skipping, SamplesOfAHomogeneousBoxAreCountedOnce) {
     EXPECT_GE(statistics.samplesVisited, 20 * rays);
     EXPECT_LE(statistics.samplesVisited, 21 * rays);
     EXPECT_EQ(statistics.samplesVisited, statistics.samplesShaded);
+  }
+}
+
+TEST(Skipping, OfAMacrocellTheHalfThatShowsNothingIsLeaptOver) {
+  // A sheet of voxels across a parallel view: what shows lies between voxels 16 and 18 along the
+  // ray, one of the two octants of the macrocell from 16 to 20. With planes half a voxel apart 4
+  // segments cover it, and at most 2 more touch its ends; 8 would cover the macrocell.
+  ArraySource source{gridOf({11, 11, 33}), [](glm::ivec3 i) { return i.z == 17 ? 1.0f : 0.0f; }};
+  Scene scene = sceneWithStyle("plain");
+  // Beyond what widening and rounding take from the sheet's values: 2^-8, and a step of 3/225.
+  scene.layers[0].transferFunction = {{{0.1, {255, 0, 0}, 0}, {1, {255, 0, 0}, 0.1}}, {}};
+  scene.quality.preintegrated = true;
+  scene.quality.stepVoxels = 0.5;
+  scene.camera = {.azimuthDeg = 0, .elevationDeg = 0, .projection = Projection::kOrthographic};
+  scene = resolved(scene, source);
+  const Camera camera = resolveCamera(scene, {source.info().grid, false});
+  const std::int64_t rays = raysThrough(camera, 5);
+  for (const int bricks : {1, 3}) {
+    RankStatistics statistics;
+    drawAlone(scene, source, camera, {.bricks = bricks, .countSamples = true}, &statistics);
+    EXPECT_GE(statistics.samplesVisited, 4 * rays);
+    EXPECT_LE(statistics.samplesVisited, 6 * rays);
+    EXPECT_GE(statistics.samplesInOccupiedCells, 3 * rays);
+    EXPECT_LE(statistics.samplesInOccupiedCells, 5 * rays);
   }
 }
 
