@@ -1,6 +1,7 @@
 #include "gl_program.hpp"
 
 #include <glm/gtc/type_ptr.hpp>
+#include <string_view>
 
 #include "burin/common/error.hpp"
 #include "burin/common/trace.hpp"
@@ -24,11 +25,32 @@ Shader compile(GLenum stage, const ShaderSource& source) {
   fail(ExitCode::kRank, "{}: does not compile:\n{}", source.files.front(), namedLog(log, source));
 }
 
+/// Layers have textures of their own, of which a program may have only so many.
+void checkTextures(const ShaderSource& source) {
+  constexpr std::string_view kUniform = "\nuniform ";
+  int textures = 0;
+  for (std::size_t at = 0; (at = source.text.find(kUniform, at)) != std::string::npos;) {
+    at += kUniform.size();
+    if (source.text.substr(at, source.text.find(' ', at) - at).find("sampler") != std::string::npos)
+      ++textures;
+  }
+  GLint most = 0;
+  gl().GetIntegerv(GL_MAX_TEXTURE_IMAGE_UNITS, &most);
+  if (textures <= most) return;
+  fail(
+      ExitCode::kUsage,
+      "the scene's layers need {} textures at once, of which this OpenGL has {}: use fewer layers, "
+      "quality.preintegrated=false (one texture for each instead of two) or --technique slices (a "
+      "layer at a time)",
+      textures, most);
+}
+
 }  // namespace
 
 GlProgram::GlProgram(const ShaderSource& vertex, const ShaderSource& fragment)
     : program_{gl().CreateProgram()} {
   const TraceSpan span{"compile"};
+  checkTextures(fragment);
   const Shader vertexShader = compile(GL_VERTEX_SHADER, vertex);
   const Shader fragmentShader = compile(GL_FRAGMENT_SHADER, fragment);
   const GLuint id = program_.id();

@@ -14,7 +14,8 @@ namespace burin::node {
 /// nothing. Its OffscreenContext must be current, here and later.
 class GlProgram {
  public:
-  /// Throws Error{kRank} with the compiler's messages by file and line.
+  /// Throws Error{kRank} with the compiler's messages by file and line, Error{kUsage} if the scene
+  /// takes more textures than a program can have.
   GlProgram(const ShaderSource& vertex, const ShaderSource& fragment);
 
   void use() const { gl().UseProgram(program_.id()); }

@@ -206,6 +206,23 @@ TEST(ProgramGenerator, EveryWordOfEveryStyleCompiles) {
       }
 }
 
+TEST(GlProgram, MoreLayersThanThereAreTexturesForAreRefused) {
+  const OffscreenContext context{{}};
+  GLint most = 0;
+  gl().GetIntegerv(GL_MAX_TEXTURE_IMAGE_UNITS, &most);
+  Scene scene = sceneWithStyle("plain");
+  // The volume and its distance map, and two for each layer: one more than there are.
+  scene.layers.resize(static_cast<std::size_t>(most) / 2, scene.layers[0]);
+  try {
+    const GlProgram program{fullscreenVertexSource(), generateRaycastProgram(scene, {})};
+    FAIL() << "linked";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), AllOf(HasSubstr(std::to_string(2 + 2 * scene.layers.size())),
+                                    HasSubstr("fewer layers"), HasSubstr("preintegrated")));
+    EXPECT_EQ(error.code(), ExitCode::kUsage);
+  }
+}
+
 TEST(GlProgram, ErrorsNameFileAndLine) {
   const OffscreenContext context{{}};
   const ShaderSource broken = expandIncludes(
