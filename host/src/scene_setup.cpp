@@ -23,7 +23,9 @@ namespace {
 
 std::string readText(const fs::path& file) {
   // Opening a FIFO would wait for somebody to write to it.
-  if (fs::exists(file) && !fs::is_regular_file(file))
+  std::error_code error;
+  const fs::file_status status = fs::status(file, error);
+  if (fs::exists(status) && !fs::is_regular_file(status))
     fail(ExitCode::kUsage, "{}: not a regular file (expected a scene file)", file.string());
   std::ifstream in{file, std::ios::binary};
   std::ostringstream text;
@@ -111,7 +113,11 @@ std::unique_ptr<node::BrickSource> openTogether(const Communicator& comm,
                                                 const VolumeChoice& choice) {
   std::unique_ptr<node::BrickSource> source;
   std::string scan;
-  onRoot(comm, [&] { scan = node::scanVolume(choice); });
+  onRoot(comm, [&] {
+    if (choice.file.empty() && choice.procedural.empty())
+      fail(ExitCode::kUsage, "no volume is named (expected 'volume' in the scene, or --volume)");
+    scan = node::scanVolume(choice);
+  });
   scan = broadcastText(comm, std::move(scan), Rank{0});
   together(comm, "opening the volume", [&] { source = node::openScannedVolume(choice, scan); });
   if (comm.isRoot() && !source->info().notice.empty()) note("{}", source->info().notice);

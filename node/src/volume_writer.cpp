@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "burin/common/error.hpp"
+#include "burin/common/memory_room.hpp"
 #include "burin/common/temporary_file.hpp"
 #include "gzip_writer.hpp"
 #include "slab_reading.hpp"
@@ -55,7 +56,8 @@ void writeNrrd(BrickSource& source, const fs::path& file, const WriteOptions& op
 void writeDetachedNrrd(BrickSource& source, const fs::path& file, const WriteOptions& options) {
   fs::path voxelFile = file;
   voxelFile.replace_extension(options.gzip ? ".raw.gz" : ".raw");
-  if (fs::exists(voxelFile) && !fs::exists(file)) {
+  std::error_code ignored;
+  if (fs::exists(voxelFile, ignored) && !fs::exists(file, ignored)) {
     fail(ExitCode::kUsage, "{}: is there without {} and would be replaced (expected another name)",
          voxelFile.string(), file.filename().string());
   }
@@ -81,6 +83,17 @@ void writeRaw(BrickSource& source, const fs::path& file, const WriteOptions& opt
   out.commit();
 }
 
+/// Before hours of writing that cannot end well.
+void checkDiskRoom(const BrickSource& source, const fs::path& file) {
+  std::error_code unknown;
+  const fs::space_info space = fs::space(fs::absolute(file).parent_path(), unknown);
+  const std::uintmax_t needed = source.info().bytes();
+  if (unknown || needed <= space.free) return;
+  fail(ExitCode::kRank, "{}: {} are to be written, the disk has {} left", file.string(),
+       byteText(static_cast<std::int64_t>(needed)),
+       byteText(static_cast<std::int64_t>(space.free)));
+}
+
 struct Writer {
   std::string_view extension;
   void (*write)(BrickSource& source, const fs::path& file, const WriteOptions& options);
@@ -104,6 +117,7 @@ void writeVolume(BrickSource& source, const fs::path& file, const WriteOptions& 
     fail(ExitCode::kUsage, "{}: unknown extension of a volume file (expected one of {})",
          file.string(), writableExtensions());
   }
+  if (!options.gzip && !name.ends_with(".gz")) checkDiskRoom(source, file);
   writer->write(source, file, options);
 }
 

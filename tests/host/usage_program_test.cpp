@@ -93,6 +93,11 @@ TEST_P(Failures, SceneIsAFifo) {  // nobody writes to it: opening it would wait 
   expectFailure({"render", folder_ / "s.json", "-o", folder_ / "a.png"}, 2, "not a regular file");
 }
 
+TEST_P(Failures, SceneIsALinkToItself) {
+  std::filesystem::create_symlink("s.json", folder_ / "s.json");
+  expectFailure({"render", folder_ / "s.json", "-o", folder_ / "a.png"}, 2, "s.json");
+}
+
 INSTANTIATE_TEST_SUITE_P(Ranks, Failures, ::testing::Values(0, 3));
 
 // Files that would be lost. Nothing is written, and what there was stays.

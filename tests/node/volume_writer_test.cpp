@@ -167,6 +167,23 @@ TEST(VolumeWriterErrors, NameWhatIsWrong) {
   EXPECT_THAT(folder.names(), IsEmpty());
 }
 
+TEST(VolumeWriterErrors, ADiskTooSmallIsFoundBeforeWriting) {
+  const TemporaryFolder folder;
+  // 10^18 bytes
+  const auto huge =
+      node::makeProcedural("ramp", glm::ivec3{1000000}, VoxelType::kU8, glm::dvec3{1});
+  for (const char* name : {"a.nrrd", "a.nhdr", "a.raw"}) {
+    try {
+      node::writeVolume(*huge, folder / name);
+      ADD_FAILURE() << "was written";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::kRank);
+      EXPECT_THAT(error.what(), HasSubstr("are to be written, the disk has"));
+    }
+  }
+  EXPECT_THAT(folder.names(), IsEmpty());
+}
+
 TEST(VolumeWriterProgress, EndsAtOneAndMayStopTheWriting) {
   const TemporaryFolder folder;
   // Two slabs of 32 MiB and a rest.

@@ -25,7 +25,8 @@ struct WriteOptions {
 /// NIfTI keeps spacing and orientation in single precision, and says "anatomical" of every grid
 /// that is more than spacings. Throws Error{kUsage} for an unknown extension, an axis too long for
 /// the format, a place that cannot be written or voxels beside a new .nhdr that are not its own,
-/// Error{kRank} if the disk fills up, and what the source throws.
+/// Error{kRank} if the disk fills up or has no room for voxels that are not packed, and what the
+/// source throws.
 void writeVolume(BrickSource& source, const std::filesystem::path& file,
                  const WriteOptions& options = {});
 
