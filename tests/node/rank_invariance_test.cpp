@@ -189,6 +189,34 @@ TEST(RankInvariance, RanksWithNothingToShow) {
   EXPECT_LE(difference(*before, *after).largest, kLargest);
 }
 
+// Two bytes a voxel of its own bricks with their ghost layers; 9 bytes per 64 of these voxels for
+// macrocells, and as many per 64 of the volume's for the survey's blocks. The rest does not grow.
+TEST(RankInvariance, ARankHoldsItsOwnBricksAlone) {
+  const VolumeGrid grid = gridOf({97, 85, 77});
+  ArraySource source = ArraySource::of<std::uint16_t>(
+      grid, node::VoxelType::kU16,
+      [](glm::ivec3 i) { return static_cast<std::uint16_t>((7 * i.x + 5 * i.y + 3 * i.z) % 200); });
+  Scene scene = sceneWithStyle("light");
+  scene.layers[0].transferFunction = {{{0, {255, 0, 0}, 0.1}, {255, {255, 0, 0}, 0.2}}, {}};
+  scene = resolved(scene, source);
+  node::Worker worker{world(), scene, source, {}};
+  RankStatistics statistics;
+  worker.draw(cameras(scene, grid).front(), statistics);
+  std::size_t own = 0, stored = 0;
+  const IndexBox volume{glm::ivec3{0}, grid.dims};
+  const int ghosts = ghostLayersNeeded(scene);
+  for (const BrickId brick : worker.tree().bricksOf(static_cast<int>(world().rank()))) {
+    const IndexBox& cells = worker.tree().brickCells(brick);
+    own += cells.count();
+    stored += intersection({cells.lo - ghosts, cells.hi + 1 + ghosts}, volume).count();
+  }
+  const auto held = static_cast<double>(statistics.residentVoxelBytes);
+  constexpr double kRest = 100e3;
+  EXPECT_GE(held, 2 * static_cast<double>(own));
+  EXPECT_LE(held, (2 + 9.0 / 64) * static_cast<double>(stored) +
+                      9.0 / 64 * static_cast<double>(volume.count()) + kRest);
+}
+
 TEST(RankInvariance, SameLayoutTwiceIsBitIdentical) {
   ArraySource source = smoothVolume(gridOf({40, 40, 30}));
   const Scene scene = resolved(sceneWithStyle("all"), source);
