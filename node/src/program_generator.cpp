@@ -505,7 +505,8 @@ class LayerCode {
                 ? "  return true;\n}\n"
                 : "  return " + (total_.empty() ? "0.0" : total_) + " > 0.0;\n}\n";
     if (isAdaptive(scene_.quality))
-      text += "float changeBeyond(Side edge, Side beyond) {\n  return " + beyond_ + ";\n}\n";
+      text += "float changeBeyond(Side edge, Side beyond) {\n  return " +
+              (beyond_.empty() ? "0.0" : beyond_) + ";\n}\n";
     text += fmt::format(
         "void shade(vec3 coordinate, {}vec3 toEye, {}out vec3 colour, out float extinction) {{\n",
         preintegrated ? "Side front, Side back, " : "", hasSurfaces_ ? "int surface, " : "");

@@ -6,6 +6,7 @@
 #include "burin/common/error.hpp"
 #include "burin/node/offscreen_context.hpp"
 #include "gl.hpp"
+#include "node/layer_modes.hpp"
 #include "support/drawing.hpp"
 #include "support/mpi_test.hpp"
 #include "support/scenes.hpp"
@@ -68,17 +69,14 @@ TEST_P(Context, StandsBesideOthers) {
 
 INSTANTIATE_TEST_SUITE_P(Backends, Context, ::testing::Values(GlBackend::kOsMesa, GlBackend::kEgl));
 
-class BackendStyle : public ::testing::TestWithParam<std::string> {};
-
 /// llvmpipe behind both: the shaders are the same, and so should their arithmetic be.
-TEST_P(BackendStyle, DrawsTheSamePicture) {
-  ArraySource source = test::smoothVolume(test::gridOf({30, 26, 22}, {1, 1, 1.3}));
-  Scene scene = test::resolved(test::sceneWithStyle(GetParam()), source);
+void expectTheSamePicture(Scene scene, ArraySource& source, WorkerOptions options) {
   scene.imageSize = {36, 28};
+  scene = test::resolved(scene, source);
   const Camera camera = resolveCamera(scene, {source.info().grid, false});
   const auto draw = [&](GlBackend backend, RankStatistics& counted) {
-    return drawAlone(scene, source, camera, {.bricks = 2, .countSamples = true, .gl = backend},
-                     &counted);
+    options.gl = backend;
+    return drawAlone(scene, source, camera, options, &counted);
   };
   RankStatistics ofOsMesa, ofEgl;
   const Image<Rgba> expected = draw(GlBackend::kOsMesa, ofOsMesa);
@@ -90,8 +88,81 @@ TEST_P(BackendStyle, DrawsTheSamePicture) {
   EXPECT_EQ(ofEgl.samplesShaded, ofOsMesa.samplesShaded);
 }
 
+ArraySource backendVolume() {
+  return test::smoothVolume(test::gridOf({30, 26, 22}, {1, 1, 1.3}));
+}
+
+class BackendStyle : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(BackendStyle, DrawsTheSamePicture) {
+  ArraySource source = backendVolume();
+  expectTheSamePicture(test::sceneWithStyle(GetParam()), source,
+                       {.bricks = 2, .countSamples = true});
+}
+
 INSTANTIATE_TEST_SUITE_P(Styles, BackendStyle, ::testing::ValuesIn(test::drawnStyles()),
                          [](const auto& style) { return style.param; });
+
+Scene labelledLight() {
+  Scene scene = test::sceneWithStyle("light");
+  scene.layers[0].labels = {1, 2};
+  return scene;
+}
+
+Scene toneOfMiddles() {
+  Scene scene = test::sceneWithStyle("tone");
+  scene.quality.preintegrated = false;
+  return scene;
+}
+
+Scene halvingLight() {
+  Scene scene = test::sceneWithStyle("light");
+  scene.quality.maxError = 0.02;
+  return scene;
+}
+
+/// A surface is looked for in each cell.
+Scene surfaceByCells() {
+  Scene scene = test::isoScene("alone");
+  scene.quality.maxError = 0.02;
+  return scene;
+}
+
+/// What scenes of one style leave out, and how it is drawn.
+struct DrawnWay {
+  const char* name;
+  Scene (*scene)();
+  Technique technique = Technique::kRaycast;
+  Precision precision = Precision::kFloat;
+};
+
+void PrintTo(const DrawnWay& way, std::ostream* out) {
+  *out << way.name;
+}
+
+class BackendWay : public ::testing::TestWithParam<DrawnWay> {};
+
+TEST_P(BackendWay, DrawsTheSamePicture) {
+  ArraySource source = backendVolume();
+  ArraySource labels = ArraySource::of<std::uint8_t>(
+      source.info().grid, VoxelType::kU8,
+      [](glm::ivec3 i) { return static_cast<std::uint8_t>((i.x / 6 + i.y / 7 + i.z / 5) % 3); });
+  WorkerOptions options{.bricks = 2, .countSamples = true, .labels = &labels};
+  options.technique = GetParam().technique;
+  options.precision = GetParam().precision;
+  expectTheSamePicture(GetParam().scene(), source, options);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Ways, BackendWay,
+    ::testing::Values(DrawnWay{"Slices", labelledLight, Technique::kSlices},
+                      DrawnWay{"SlicesInHalf", labelledLight, Technique::kSlices, Precision::kHalf},
+                      DrawnWay{"SlicesInBytes", labelledLight, Technique::kSlices,
+                               Precision::kByte},
+                      DrawnWay{"Labels", labelledLight}, DrawnWay{"Middles", toneOfMiddles},
+                      DrawnWay{"AllModes", test::sceneOfAllModes},
+                      DrawnWay{"Halving", halvingLight}, DrawnWay{"ByCells", surfaceByCells}),
+    [](const auto& way) { return std::string{way.param.name}; });
 
 }  // namespace
 }  // namespace burin::node
