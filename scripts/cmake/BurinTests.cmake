@@ -1,8 +1,9 @@
 # burin_add_test(NAME SOURCES … LIBRARIES … [LABELS …] [TIMEOUT seconds] [ALONE]): a GoogleTest program,
 # one CTest entry per program (start-up dominates; run one case with --gtest_filter).
 #
-# Where BURIN_UNITY is on, the tests of a folder share a few programs, unless they
-# say ALONE or are for the thread sanitizer; the CTest entries stay (burin_test_program).
+# Where BURIN_UNITY is on, the tests of a folder share a few programs, unless they say ALONE or are for the
+# thread sanitizer; the CTest entries stay (burin_test_program). $<TARGET_FILE:NAME> is then nothing:
+# burin_test_command says what runs a test.
 #
 # Label "sanitize" puts a test into the subset that runs under address and undefined-behaviour
 # sanitizers, "threads" into the one for the thread sanitizer; targets sanitize_tests and
