@@ -1,8 +1,10 @@
 #include "burin/host/default_scene.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "burin/common/error.hpp"
+#include "coarse_look.hpp"
 #include "first_view.hpp"
 #include "material_layout.hpp"
 #include "materials.hpp"
@@ -67,6 +69,41 @@ TransferFunction transferFunctionFor(const Materials& materials, Surroundings su
   return coreInSkin(materials, bareShare(blocks, materials.outer, *materials.inner));
 }
 
+/// The largest factor from 2^-4 to 2^4 for which something holds that holds for all smaller ones;
+/// the smallest if there is none.
+template <typename Holds>
+double largestFactor(Holds&& holds) {
+  constexpr int kSteps = 8;
+  double low = -4, high = 4;
+  if (holds(std::exp2(high))) return std::exp2(high);
+  for (int i = 0; i < kSteps; ++i) {
+    const double middle = 0.5 * (low + high);
+    (holds(std::exp2(middle)) ? low : high) = middle;
+  }
+  return std::exp2(low);
+}
+
+/// What a skin's extinctions are multiplied with, so that it is seen where it is alone and leaves
+/// most of what lies within: as they are if that is so.
+double balance(const CoarseLook& look) {
+  constexpr double kSeen = 0.3;
+  constexpr double kLeft = 0.6;
+  const auto leavesCore = [&](double factor) { return look.withSkin(factor).core > kLeft; };
+  const Visibility now = look.withSkin(1);
+  if (now.core <= kLeft) return largestFactor(leavesCore);
+  if (now.skin >= kSeen) return 1;
+  return std::max(1.0, largestFactor([&](double factor) {
+                    const Visibility then = look.withSkin(factor);
+                    return then.skin < kSeen && then.core > kLeft;
+                  }));
+}
+
+/// Extinctions of values below `end` times `factor`.
+void multiplyBelow(TransferFunction& function, double end, double factor) {
+  for (TransferPoint& point : function.points)
+    if (point.value < end) point.opacity = -std::expm1(factor * std::log1p(-point.opacity));
+}
+
 StyleSettings withDefaults(std::string_view name) {
   const StyleSpec* spec = findStyle(name);
   BURIN_CHECK(spec != nullptr);
@@ -95,8 +132,14 @@ StyleSettings gradientsFor(const Materials& materials, Surroundings surroundings
 
 Scene makeDefaultScene(const VolumeChoice& choice, const VolumeFacts& facts,
                        const MaterialProfile& profile, const node::BlockRanges& blocks) {
-  const Materials materials = findMaterials(profile);
-  const Surroundings surroundings = findSurroundings(blocks, materials.outer);
+  Materials materials = findMaterials(profile);
+  Surroundings surroundings = findSurroundings(blocks, materials.outer);
+  const std::optional<double> faint = faintBoundary(blocks, materials.outer);
+  if (faint && (surroundings == Surroundings::kDark ||
+                findSurroundings(blocks, *faint) == Surroundings::kDark)) {
+    materials = withFaint(materials, *faint, profile.histogram);
+    surroundings = Surroundings::kDark;
+  }
   Scene scene;
   scene.volume = choice;
   Layer layer;
@@ -111,6 +154,12 @@ Scene makeDefaultScene(const VolumeChoice& choice, const VolumeFacts& facts,
     layer.styles.insert(layer.styles.begin() + 1, withDefaults("surface"));
   scene.layers = {layer};
   scene.camera = firstView(scene, facts, blocks);
+  if (materials.inner && surroundings == Surroundings::kDark) {
+    TransferFunction& function = scene.layers.front().transferFunction;
+    const glm::dvec3 forward = resolveCamera(scene, facts).forward;
+    multiplyBelow(function, *materials.inner,
+                  balance(CoarseLook{facts.grid, blocks, function, *materials.inner, forward}));
+  }
   return scene;
 }
 

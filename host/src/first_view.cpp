@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 namespace burin::host {
@@ -46,6 +47,29 @@ class VisibleMass {
       if (to >= shown.hi[axis] - end) count[1] += at(block);
     });
     return count;
+  }
+
+  /// How many blocks of each layer along an axis show, of those between the ends of what shows.
+  std::vector<double> layers(int axis) const {
+    const IndexBox shown = bounds();
+    const int first = shown.lo[axis] / blocks_.blockCells;
+    const int last = (shown.hi[axis] - 1) / blocks_.blockCells;
+    std::vector<double> counts(static_cast<std::size_t>(last - first) + 1);
+    forBlocks([&](const glm::ivec3& block) {
+      if (at(block) > 0) counts[static_cast<std::size_t>(block[axis] - first)] += 1;
+    });
+    return counts;
+  }
+
+  /// Share of the blocks at the volume's lower and at its upper face along an axis that show.
+  glm::dvec2 atFaces(int axis) const {
+    glm::dvec2 count{0};
+    forBlocks([&](const glm::ivec3& block) {
+      if (block[axis] == 0) count[0] += at(block);
+      if (block[axis] == blocks_.blocks[axis] - 1) count[1] += at(block);
+    });
+    const double area = static_cast<double>(blocks_.lowest.size()) / blocks_.blocks[axis];
+    return count / area;
   }
 
   /// The smallest box of cells around every block that can show; the whole volume if none can.
@@ -153,13 +177,41 @@ bool isLeftRightSymmetric(const VisibleMass& mass) {
   return leftRight > kSymmetric && leftRight > std::max(mass.symmetry(1), mass.symmetry(2)) + kMore;
 }
 
-/// By what the upper face cuts off; of heads also by the face, which has more boundaries than the
-/// vault of the skull above it.
+/// Whether what shows stands on, or hangs from, what covers one of the volume's faces along z.
+bool hasFloorAlongZ(const VisibleMass& mass) {
+  constexpr double kCovered = 0.4;
+  constexpr double kMore = 2;
+  const glm::dvec2 faces = mass.atFaces(2);
+  const glm::dvec2 sides = glm::max(mass.atFaces(0), mass.atFaces(1));
+  const double rest = std::max({std::min(faces[0], faces[1]), sides[0], sides[1]});
+  const double floor = std::max(faces[0], faces[1]);
+  return floor > kCovered && floor > kMore * rest;
+}
+
+/// Whether a sheet, such as the table under a scan, lies above all that shows but for specks.
+bool isSheetAbove(const VisibleMass& mass, int upAxis) {
+  constexpr double kWider = 2;      // than each layer below
+  constexpr double kSpecks = 0.05;  // of all
+  constexpr std::ptrdiff_t kThick = 3;
+  const std::vector<double> layers = mass.layers(upAxis);
+  const auto third = static_cast<std::ptrdiff_t>(layers.size() / 3);
+  if (third <= kThick) return false;
+  const auto sheet = std::max_element(layers.end() - third, layers.end());
+  const double widestBelow = *std::max_element(layers.begin(), sheet - kThick);
+  const auto above = layers.end() - sheet > kThick ? sheet + kThick : layers.end();
+  return *sheet > kWider * widestBelow &&
+         std::accumulate(above, layers.end(), 0.0) <
+             kSpecks * std::accumulate(layers.begin(), layers.end(), 0.0);
+}
+
+/// By what the upper face cuts off, and by tables; of heads also by the face, which has more
+/// boundaries than the vault of the skull above it.
 bool isUpsideDown(const VisibleMass& mass, int upAxis, int cells) {
   constexpr double kMore = 1.25;
   constexpr double kFaceAbove = 0.014;
   const glm::dvec2 ends = mass.atEnds(upAxis);
   if (mass.bounds().hi[upAxis] == cells && ends[1] > kMore * ends[0]) return true;
+  if (isSheetAbove(mass, upAxis)) return true;
   return isLeftRightSymmetric(mass) && mass.boundaryOffset(upAxis) > kFaceAbove;
 }
 
@@ -212,8 +264,8 @@ CameraChoice firstView(const Scene& scene, const VolumeFacts& facts,
   Scene viewed = scene;
   CameraChoice& camera = viewed.camera;
   const bool isFlatBox = isFlat(glm::dvec3{facts.grid.cells()} * facts.grid.spacing);
-  const bool isUpZ =
-      facts.anatomical || isFlatBox || isSliced(facts.grid.spacing) || isLeftRightSymmetric(mass);
+  const bool isUpZ = facts.anatomical || isFlatBox || isSliced(facts.grid.spacing) ||
+                     isLeftRightSymmetric(mass) || hasFloorAlongZ(mass);
   camera.upAxis = isUpZ ? "z" : "y";
   const int up = isUpZ ? 2 : 1;
   if (isFlatBox) camera.elevationDeg = 40;

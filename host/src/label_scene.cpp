@@ -12,12 +12,62 @@ namespace burin::host {
 
 namespace {
 
-/// Optical depth of a cube of a label's volume.
-constexpr double kDepth = 3;
+/// Opacity units across the volume's diagonal.
+constexpr double kUnitsAcrossVolume = 256;
+/// Optical depth of a voxel of what is seen from outside.
+constexpr double kFirmDepth = 1;
+/// Optical depth of a cube of a label's volume, of what lies around others.
+constexpr double kClearDepth = 0.7;
 
 struct LabelShare {
   int label;
   double voxels;
+};
+
+/// How labels lie in one another, by the blocks of a survey. Labels that are equal modulo 64 are
+/// taken for one.
+class Nesting {
+ public:
+  explicit Nesting(const node::LabelSurvey& survey) {
+    for (const node::LabelSet set : survey.blocks)
+      for (std::size_t label = 0; label < kLabels; ++label) {
+        if ((set >> label & 1) == 0) continue;
+        for (std::size_t other = 0; other < kLabels; ++other)
+          together_[label][other] += static_cast<double>(set >> other & 1);
+      }
+  }
+
+  /// Whether most blocks of some label that lies deeper hold this one, too.
+  bool isAround(int label) const {
+    constexpr double kEnclosed = 0.25;
+    constexpr double kMost = 0.5;
+    const std::size_t around = bit(label);
+    for (std::size_t within = 1; within < kLabels; ++within) {
+      const double blocks = together_[within][within];
+      if (blocks > 0 && bareShare(within) < kEnclosed && isDeeper(within, around) &&
+          together_[within][around] > kMost * blocks)
+        return true;
+    }
+    return false;
+  }
+
+ private:
+  static constexpr std::size_t kLabels = 64;
+  static std::size_t bit(int label) { return static_cast<unsigned>(label) & (kLabels - 1); }
+
+  /// How many of a label's blocks hold voxels without a label, too.
+  double bareShare(std::size_t label) const {
+    return together_[label][0] / together_[label][label];
+  }
+
+  /// Of two labels that lie bare nowhere the smaller one is the deeper.
+  bool isDeeper(std::size_t label, std::size_t than) const {
+    if (bareShare(label) != bareShare(than)) return bareShare(label) < bareShare(than);
+    return together_[label][label] < together_[than][than];
+  }
+
+  /// In how many blocks two labels occur.
+  std::array<std::array<double, kLabels>, kLabels> together_{};
 };
 
 /// Those that occur, most voxels first; 0 is what belongs to none.
@@ -38,18 +88,38 @@ Colour paletteColour(int label) {
   return parseColour(kPalette[index]);
 }
 
-Layer layerOf(const LabelShare& share, std::span<const LabelInfo> infos, const VolumeGrid& grid) {
-  const auto info = std::ranges::find(infos, share.label, &LabelInfo::value);
-  const bool isKnown = info != infos.end();
+/// A layer of one colour and of an extinction per world unit, whatever the values, with what shows
+/// its shape.
+Layer plainLayer(std::string name, const Colour& colour, double extinction,
+                 const VolumeGrid& grid) {
+  const double unit = 2 * grid.boundingRadius() / kUnitsAcrossVolume;
   Layer layer;
-  layer.name = isKnown && !info->name.empty() ? info->name : fmt::format("label {}", share.label);
-  layer.labels = {share.label};
-  const Colour colour = isKnown && info->colour ? *info->colour : paletteColour(share.label);
-  const double side = std::cbrt(share.voxels * grid.spacing.x * grid.spacing.y * grid.spacing.z);
-  const double unit = 2 * grid.boundingRadius() / 256;
-  layer.transferFunction = {{{0, colour, -std::expm1(-kDepth * unit / side)}}, unit};
+  layer.name = std::move(name);
+  layer.transferFunction = {{{0, colour, -std::expm1(-extinction * unit)}}, unit};
   for (const char* style : {"light", "edges"})
     layer.styles.push_back(defaultSettings(*findStyle(style)));
+  return layer;
+}
+
+Layer layerOf(const LabelShare& share, bool isAround, std::span<const LabelInfo> infos,
+              const VolumeGrid& grid) {
+  const auto info = std::ranges::find(infos, share.label, &LabelInfo::value);
+  const bool isKnown = info != infos.end();
+  const std::string name =
+      isKnown && !info->name.empty() ? info->name : fmt::format("label {}", share.label);
+  const Colour colour = isKnown && info->colour ? *info->colour : paletteColour(share.label);
+  const double side = std::cbrt(share.voxels * grid.spacing.x * grid.spacing.y * grid.spacing.z);
+  const double extinction = isAround ? kClearDepth / side : kFirmDepth / grid.smallestSpacing();
+  Layer layer = plainLayer(name, colour, extinction, grid);
+  layer.labels = {share.label};
+  return layer;
+}
+
+/// What no layer of their own is left for.
+Layer layerOfOthers(std::span<const LabelShare> shares, const VolumeGrid& grid) {
+  Layer layer =
+      plainLayer("other labels", parseColour("#c8c4bc"), kFirmDepth / grid.smallestSpacing(), grid);
+  for (const LabelShare& share : shares) layer.labels.emplace_back(share.label);
   return layer;
 }
 
@@ -77,11 +147,15 @@ Scene makeLabelScene(const VolumeChoice& volume, const LabelVolumeChoice& labels
   std::vector<LabelShare> shares = sharesOf(survey);
   if (shares.empty()) fail(ExitCode::kVolume, "{}: no voxel has a label", labels.file);
   constexpr auto kMost = static_cast<std::size_t>(kMostLabelLayers);
-  if (shares.size() > kMost) shares.resize(kMost);
+  const std::size_t own = shares.size() > kMost ? kMost - 1 : shares.size();
+  const Nesting nesting{survey};
   Scene scene;
   scene.volume = volume;
   scene.labels = labels;
-  for (const LabelShare& share : shares) scene.layers.push_back(layerOf(share, infos, facts.grid));
+  for (const LabelShare& share : std::span{shares}.first(own))
+    scene.layers.push_back(layerOf(share, nesting.isAround(share.label), infos, facts.grid));
+  if (own < shares.size())
+    scene.layers.push_back(layerOfOthers(std::span{shares}.subspan(own), facts.grid));
   scene.camera = viewOfLabels(scene, facts, survey);
   return scene;
 }

@@ -12,8 +12,8 @@ inline constexpr int kMostLabelLayers = 12;
 
 /// A scene for a volume and its segmentation: a layer for each label that occurs but 0, whatever
 /// the values, with its name and colour where the segmentation says them; labels of many voxels
-/// first, and kMostLabelLayers at most. Each dims what lies behind it about alike, so large ones
-/// are fainter. Throws Error{kVolume} if no label occurs.
+/// first. Of more than kMostLabelLayers the last layer holds all that are left. Labels are opaque
+/// but those that others lie in. Throws Error{kVolume} if no label occurs.
 Scene makeLabelScene(const VolumeChoice& volume, const LabelVolumeChoice& labels,
                      const VolumeFacts& facts, std::span<const LabelInfo> infos,
                      const node::LabelSurvey& survey);

@@ -1,7 +1,9 @@
 #include "materials.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
+#include <optional>
 
 namespace burin::host {
 
@@ -47,14 +49,18 @@ class Finder {
     const std::size_t below = mostFrequent(first, std::max(parting, first + 1));
     std::size_t above = mostFrequent(std::max(parting, first + 1), counts_.size());
     // Values cut off at the end of the range are no material that background could border on.
-    if (first == 0 && above == last()) above = parting;
-    std::size_t steepest = parting;
-    // About halfway: values cut off at the ends of a range are steep, too.
-    const std::size_t quarter = (above - below) / 4;
-    for (std::size_t bin = below + quarter; bin + quarter <= above; ++bin) {
-      if (hasArea(bin) && steepness(bin) > steepness(steepest)) steepest = bin;
-    }
-    return {below, above, steepest};
+    const bool isCut = first == 0 && above == last();
+    if (isCut) above = parting;
+    const std::size_t wanted = isCut ? parting : (below + above) / 2;
+    return {below, above, steepestBetween(below, above, wanted)};
+  }
+
+  /// The boundary of the background of `outer` with the first material in it, if `outer` passes
+  /// through that one, or parts it from a second.
+  Boundary withoutMaterialBelow(const Boundary& outer) const {
+    const std::optional<std::size_t> mode = modeBelow(outer);
+    if (!mode) return outer;
+    return {outer.below, *mode, steepestBetween(outer.below, *mode, (outer.below + *mode) / 2)};
   }
 
   double steepness(std::size_t bin) const { return profile_.steepness(bin, radius_); }
@@ -83,6 +89,74 @@ class Finder {
   double sumFrom(std::size_t bin) const {
     return static_cast<double>(std::accumulate(counts_.begin() + static_cast<std::ptrdiff_t>(bin),
                                                counts_.end(), std::int64_t{0}));
+  }
+
+  /// Of the bins about halfway between two that are nearly as steep as the steepest the one nearest
+  /// to `wanted`; that one if none there has area.
+  std::size_t steepestBetween(std::size_t below, std::size_t above, std::size_t wanted) const {
+    constexpr double kNearly = 0.9;
+    // Values cut off at the ends of a range are steep, too.
+    const std::size_t quarter = (above - below) / 4;
+    const auto isSteeperThan = [&](std::size_t bin, double bound) {
+      return hasArea(bin) && steepness(bin) > bound;
+    };
+    double greatest = steepness(wanted);
+    for (std::size_t bin = below + quarter; bin + quarter <= above; ++bin)
+      if (isSteeperThan(bin, greatest)) greatest = steepness(bin);
+    if (steepness(wanted) >= kNearly * greatest) return wanted;
+    std::optional<std::size_t> nearest;
+    const auto distance = [&](std::size_t bin) {
+      return bin > wanted ? bin - wanted : wanted - bin;
+    };
+    for (std::size_t bin = below + quarter; bin + quarter <= above; ++bin) {
+      if (isSteeperThan(bin, kNearly * greatest) &&
+          (!nearest || distance(bin) < distance(*nearest)))
+        nearest = bin;
+    }
+    return nearest.value_or(wanted);
+  }
+
+  /// The most frequent bin of a material between the background and a boundary: twice as frequent
+  /// as values on either side of it, and a good part of what shows. What is much nearer to the
+  /// background than to the boundary is another background, such as air beside padding.
+  std::optional<std::size_t> modeBelow(const Boundary& outer) const {
+    constexpr double kValley = 0.5;
+    constexpr double kSmallest = 0.25;
+    constexpr double kNearest = 0.4;  // of the way from the background to the boundary
+    std::optional<std::size_t> mode;
+    std::size_t valley = outer.below;
+    std::size_t valleyOfMode = valley;
+    const double nearest =
+        std::lerp(static_cast<double>(outer.below), static_cast<double>(outer.steepest), kNearest);
+    for (std::size_t bin = outer.below; bin <= outer.steepest; ++bin) {
+      if (frequency(bin) < frequency(valley)) valley = bin;
+      if (static_cast<double>(bin) < nearest) continue;
+      if (frequency(valley) < kValley * frequency(bin) &&
+          (!mode || frequency(bin) > frequency(*mode))) {
+        mode = bin;
+        valleyOfMode = valley;
+      }
+    }
+    // A spike of values that stand for nothing is no background of what fills the volume.
+    if (!mode || frequency(*mode) > frequency(outer.below)) return std::nullopt;
+    std::size_t end = *mode;
+    while (end < last() && frequency(end) <= frequency(*mode) &&
+           frequency(end) >= kValley * frequency(*mode))
+      ++end;
+    if (frequency(end) > frequency(*mode)) return std::nullopt;  // on the way up to the second
+    const double shown = sumFrom(outer.steepest);
+    const double added = sumFrom(valleyOfMode) - shown;
+    return added > kSmallest * shown ? mode : std::nullopt;
+  }
+
+  /// Voxels in a bin and its neighbours.
+  double frequency(std::size_t bin) const {
+    constexpr std::size_t kCoarse = 64;  // bins that histograms may be cut to without losing modes
+    const std::size_t radius = counts_.size() / kCoarse;
+    std::int64_t sum = 0;
+    for (std::size_t i = bin - std::min(bin, radius); i <= std::min(bin + radius, last()); ++i)
+      sum += counts_[i];
+    return static_cast<double>(sum);
   }
 
   /// In [first, end), which may be empty beyond the last bin.
@@ -118,13 +192,19 @@ bool isMaterialWithin(const Finder& finder, const Boundary& boundary, std::size_
          finder.steepness(boundary.steepest) > kSteeper * finder.steepness(boundary.below);
 }
 
+/// Little lies above it, and it above `base`.
+double topAbove(const Histogram& histogram, double base) {
+  // One bin at least: a curve needs its points apart, and floats can be told apart no finer.
+  return std::max(quantileAbove(histogram, base, 0.99), base + histogram.binWidth);
+}
+
 }  // namespace
 
 Materials findMaterials(const MaterialProfile& profile) {
   const Histogram& histogram = profile.histogram;
   const Finder finder{profile};
   Materials found;
-  const Boundary outer = finder.boundaryFrom(0);
+  const Boundary outer = finder.withoutMaterialBelow(finder.boundaryFrom(0));
   found.outer = histogram.edge(outer.steepest);
   if (outer.steepest + 2 < histogram.counts.size()) {
     const Boundary inner = finder.boundaryFrom(outer.steepest);
@@ -133,14 +213,21 @@ Materials findMaterials(const MaterialProfile& profile) {
       found.around = histogram.edge(inner.below);
     }
   }
-  const double base = found.inner.value_or(found.outer);
-  // One bin at least: a curve needs its points apart, and floats can be told apart no finer.
-  found.top = std::max(quantileAbove(histogram, base, 0.99), base + histogram.binWidth);
+  found.top = topAbove(histogram, found.inner.value_or(found.outer));
   found.bottom =
       std::min(quantileBelow(histogram, found.outer, 0.01), found.outer - histogram.binWidth);
   const double usual = profile.magnitudeQuantile(0.999);
   found.noise = usual > 0 ? finder.meanMagnitude(outer.below) / usual : 0;
   return found;
+}
+
+Materials withFaint(const Materials& materials, double faint, const Histogram& histogram) {
+  Materials all = materials;
+  all.inner = materials.outer;
+  all.outer = faint;
+  all.around = faint;
+  all.top = topAbove(histogram, *all.inner);
+  return all;
 }
 
 }  // namespace burin::host

@@ -20,7 +20,13 @@ struct Materials {
 
 /// The background and what lies in it parted by Otsu's threshold, then moved to where the field is
 /// steepest between their most frequent values: halfway, if the boundary is blurred. The same again
-/// above that, if it finds a boundary that is steeper than the material around it.
+/// above that, if it finds a boundary that is steeper than the material around it. If values below
+/// the first boundary are a material of their own (a mode of the histogram), it is the one between
+/// the background and that material that counts.
 Materials findMaterials(const MaterialProfile& profile);
+
+/// The same with a material of values from `faint` (below `outer`) around, and all that is above
+/// `outer` within. `histogram`: of the profile.
+Materials withFaint(const Materials& materials, double faint, const Histogram& histogram);
 
 }  // namespace burin::host

@@ -98,8 +98,8 @@ Scene sceneFromLabels(const Communicator& comm, const RenderOptions& options,
     const auto count =
         std::ranges::count_if(survey.voxels, [](const auto& l) { return l.first != 0; });
     if (count > kMostLabelLayers)
-      note("{}: {} labels, of which the {} with most voxels are drawn", labels.file, count,
-           kMostLabelLayers);
+      note("{}: {} labels, of which the {} with most voxels have a colour of their own",
+           labels.file, count, kMostLabelLayers - 1);
   });
   Scene scene = parseMadeScene(comm, text, labels.file, options);
   scene.volume = choice;

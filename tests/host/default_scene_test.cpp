@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <functional>
 
@@ -119,6 +120,65 @@ TEST(DefaultScene, WhatFillsItsBoxShowsItsBoundaries) {
   EXPECT_NE(sceneOf(volume).layers[0].style("surface"), nullptr);
 }
 
+TEST(DefaultScene, AMaterialBelowOtsusThresholdIsNoBackground) {
+  // Background in bin 0, much in 4 … 6, little everywhere above, and more that is cut off at the
+  // end.
+  std::vector<std::int64_t> counts(32, 30);
+  counts[0] = 7000;
+  for (const std::size_t bin : {1U, 2U, 3U}) counts[bin] = 20;
+  for (const std::size_t bin : {4U, 5U, 6U}) counts[bin] = 400;
+  counts[31] = 300;
+  Known volume = known(std::move(counts));
+  ASSERT_GT(otsuThreshold(volume.profile.histogram), 7);
+  const TransferFunction function = sceneOf(volume).layers[0].transferFunction;
+  EXPECT_GT(function.classify(4, 1).extinction, 0);
+  EXPECT_EQ(function.classify(0.9, 1).extinction, 0);
+}
+
+/// Background below 4, as much as `highest` says of each block but those of the first layer, which
+/// reach 9; in an order in which the first ones are next to that layer.
+Scene besideBright(const std::function<float(double part)>& highest) {
+  Known volume = known({900, 20, 20, 20, 20, 0, 0, 0, 100, 100});
+  constexpr int kBlocks = 8;
+  volume.blocks = {};
+  volume.blocks.blockCells = 8;
+  volume.blocks.blocks = glm::ivec3{kBlocks};
+  constexpr int kBright = kBlocks * kBlocks;
+  constexpr int kAll = kBlocks * kBlocks * kBlocks;
+  volume.blocks.lowest.assign(kAll, 0.0F);
+  for (int i = 0; i < kAll; ++i)
+    volume.blocks.highest.push_back(i < kBright ? 9.0F
+                                                : highest((i - kBright + 0.5) / (kAll - kBright)));
+  return sceneOf(volume);
+}
+
+TEST(DefaultScene, FaintThingsApartFromBrightOnesShow) {
+  const auto shows = [](const Scene& scene, double value) {
+    return scene.layers[0].transferFunction.classify(value, 1).extinction > 0;
+  };
+  // A group of its own: an eighth next to what is bright, as much as that apart.
+  const Scene leaves =
+      besideBright([](double part) { return part > 0.2 && part < 0.4 ? 3.0F : 1.0F; });
+  EXPECT_TRUE(shows(leaves, 2.5));
+  EXPECT_FALSE(shows(leaves, 1));
+  EXPECT_EQ(leaves.layers[0].transferFunction.points.size(), 6u) << "what is bright lies within";
+  // Values of a field, spread evenly.
+  const Scene field =
+      besideBright([](double part) { return static_cast<float>(3.9 * (1 - part)); });
+  EXPECT_TRUE(shows(field, 3));
+  // Noise: each value rarer than the ones below it.
+  const Scene noise = besideBright(
+      [](double part) { return static_cast<float>(std::min(3.9, -0.8 * std::log(part))); });
+  EXPECT_FALSE(shows(noise, 3));
+  // Too few.
+  const Scene specks =
+      besideBright([](double part) { return part > 0.2 && part < 0.22 ? 3.0F : 1.0F; });
+  EXPECT_FALSE(shows(specks, 3));
+  // What fills the volume.
+  const Scene medium = besideBright([](double part) { return part > 0.2 ? 3.0F : 1.0F; });
+  EXPECT_FALSE(shows(medium, 3));
+}
+
 /// A ball of 5 within 0, with values between at the places of blocks for which `isRough`.
 Scene ballScene(const std::function<bool(const glm::ivec3&)>& isRough, const VolumeFacts& facts) {
   Known volume = known({900, 0, 0, 0, 0, 100});
@@ -151,6 +211,45 @@ TEST(DefaultScene, LooksFromTheSideOfMostBoundaries) {
   EXPECT_EQ(ballScene(highY, facts).camera.azimuthDeg, 210);
   facts.anatomical = true;  // the file says where the front is
   EXPECT_EQ(ballScene(highY, facts).camera.azimuthDeg, 30);
+}
+
+/// 16³ blocks of 5 where `isShown`, else of 0.
+CameraChoice viewOf(const std::function<bool(const glm::ivec3&)>& isShown) {
+  VolumeFacts facts;
+  facts.grid.dims = {65, 65, 65};
+  Known volume = known({900, 0, 0, 0, 0, 100});
+  constexpr int kBlocks = 16;
+  volume.blocks = {};
+  volume.blocks.blockCells = 4;
+  volume.blocks.blocks = glm::ivec3{kBlocks};
+  for (int z = 0; z < kBlocks; ++z)
+    for (int y = 0; y < kBlocks; ++y)
+      for (int x = 0; x < kBlocks; ++x)
+        volume.blocks.highest.push_back(isShown({x, y, z}) ? 5.0F : 0.0F);
+  volume.blocks.lowest = volume.blocks.highest;
+  return sceneOf(volume, facts).camera;
+}
+
+TEST(DefaultScene, WhatStandsOnAFloorStandsUpright) {
+  const auto floor = [](const glm::ivec3& b) {
+    return b.z == 15 || (b.x == 3 && b.y == 6 && b.z > 4);
+  };
+  EXPECT_EQ(viewOf(floor).upAxis, "z");
+  EXPECT_EQ(viewOf([&](const glm::ivec3& b) { return floor({b.y, b.z, b.x}); }).upAxis, "y");
+}
+
+TEST(DefaultScene, TablesLieBelow) {
+  // A ball in the middle, a sheet a little away from it, and a speck beyond the sheet.
+  const auto onTable = [](const glm::ivec3& b) {
+    const bool isBall = glm::length(glm::dvec3{b} - glm::dvec3{6.5, 8.5, 7.5}) < 4;
+    const bool isTable = b.y == 3 && b.x > 0 && b.x < 15 && b.z > 0 && b.z < 15;
+    return isBall || isTable || b == glm::ivec3{4, 1, 4};
+  };
+  EXPECT_EQ(viewOf(onTable).elevationDeg, 20);
+  EXPECT_EQ(viewOf([&](const glm::ivec3& b) {
+              return onTable({b.x, 15 - b.y, b.z});
+            }).elevationDeg,
+            -160);
 }
 
 TEST(DefaultScene, ConstantAndEmptyVolumesAreValidToo) {
