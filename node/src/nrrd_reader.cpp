@@ -131,6 +131,8 @@ Header readHeader(const std::string& name) {
   header.state->skipData = AIR_TRUE;
   header.state->keepNrrdDataFileOpen = AIR_TRUE;
   if (nrrdLoad(header.nrrd.get(), name.c_str(), header.state.get()) != 0) {
+    // An attached header's file is teem's own again, and closed.
+    if (header.state->detachedHeader == AIR_FALSE) header.state->dataFile = nullptr;
     fail(ExitCode::kVolume, "{}: bad NRRD header: {}", name, teemReason());
   }
   return header;

@@ -95,6 +95,13 @@ TEST_F(VolumeErrors, NrrdHeaders) {
   expectError("huge.nrrd",
               nrrd("type: uint8\ndimension: 3\nsizes: 3000000000 2 2\nencoding: raw", eight),
               {"3000000000 x 2 x 2"});
+  // Found to be wrong when the data have been opened.
+  const std::string pairs =
+      "type: uint8\ndimension: 4\nsizes: 2 1 2 2\nkinds: RGB-color domain domain domain\n";
+  folder_.write("pairs.raw", eight);
+  expectError("pairs.nrrd", nrrd(pairs + "encoding: raw", eight), {"bad NRRD header", "RGB-color"});
+  expectError("pairs.nhdr", nrrd(pairs + "encoding: raw\ndata file: pairs.raw", ""),
+              {"bad NRRD header", "RGB-color"});
   expectError("flat.nrrd",
               nrrd("type: uint8\ndimension: 3\nspace: RAS\nsizes: 2 2 2\n"
                    "space directions: (1,0,0) (0,1,0) (1,1,0)\nencoding: raw",
