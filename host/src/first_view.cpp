@@ -209,10 +209,12 @@ bool isSheetAbove(const VisibleMass& mass, int upAxis) {
 bool isUpsideDown(const VisibleMass& mass, int upAxis, int cells) {
   constexpr double kMore = 1.25;
   constexpr double kFaceAbove = 0.014;
+  constexpr double kNoFace = 0.03;  // so far up it is not for a face
   const glm::dvec2 ends = mass.atEnds(upAxis);
   if (mass.bounds().hi[upAxis] == cells && ends[1] > kMore * ends[0]) return true;
   if (isSheetAbove(mass, upAxis)) return true;
-  return isLeftRightSymmetric(mass) && mass.boundaryOffset(upAxis) > kFaceAbove;
+  const double offset = mass.boundaryOffset(upAxis);
+  return isLeftRightSymmetric(mass) && offset > kFaceAbove && offset < kNoFace;
 }
 
 /// The same view of what is upside down: beyond the pole, from where the up axis points down.
