@@ -18,7 +18,7 @@ struct SkipState {
   vec3 origin, along;  // along is never 0
   vec3 inverse;        // of along
   vec3 halves;         // planes that crossing half a macrocell takes along each axis
-  vec4 octantBits;     // number of the octant that a ray meets first; its change past the middles
+  vec4 octantBits;     // an octant's number: its change past the middles, and of the first
   vec3 lastCell;       // of the map
   vec3 perMap;         // 1 / cells of the map
   float margin;        // exitMargin
