@@ -70,8 +70,8 @@ TransferFunction transferFunctionFrom(const ColourMap& map,
                                       const std::optional<glm::dvec2>& range = {});
 
 /// Reads ParaView's JSON (`map`: the name of one of several; "" the first), 3D Slicer's volume
-/// properties, .vp and .vp.json; notes if one has opacity by gradient. Throws Error{kUsage} with the
-/// place in the file.
+/// properties, .vp and .vp.json; notes if one has opacity by gradient. Throws Error{kUsage} with
+/// the place in the file.
 ColourMap readColourMap(const std::filesystem::path& file, std::string_view map = {});
 
 /// As ParaView imports it: one map in its RGB space, with opacities. Throws Error{kUsage} for a
