@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 
 #include "burin/common/error.hpp"
@@ -24,28 +25,25 @@ struct LabelShare {
   double voxels;
 };
 
-/// How labels lie in one another, by the blocks of a survey. Labels that are equal modulo 64 are
-/// taken for one.
-class Nesting {
+/// The boxes of blocks in which labels occur. Labels that are equal modulo 64 are taken for one.
+class LabelBoxes {
  public:
-  explicit Nesting(const node::LabelSurvey& survey) {
-    for (const node::LabelSet set : survey.blocks)
-      for (std::size_t label = 0; label < kLabels; ++label) {
-        if ((set >> label & 1) == 0) continue;
-        for (std::size_t other = 0; other < kLabels; ++other)
-          together_[label][other] += static_cast<double>(set >> other & 1);
-      }
+  LabelBoxes(const node::LabelSurvey& survey, const glm::ivec3& blocks) {
+    boxes_.fill(IndexBox{blocks, glm::ivec3{0}});
+    std::size_t i = 0;
+    for (int z = 0; z < blocks.z; ++z)
+      for (int y = 0; y < blocks.y; ++y)
+        for (int x = 0; x < blocks.x; ++x) add({x, y, z}, survey.blocks[i++]);
   }
 
-  /// Whether most blocks of some label that lies deeper hold this one, too.
+  /// Whether some other label's box lies in this one's and is clearly smaller, as a skull's in a
+  /// head's: what encloses is seldom closed, and thinner than a block, so neighbours tell less.
   bool isAround(int label) const {
-    constexpr double kEnclosed = 0.25;
-    constexpr double kMost = 0.5;
-    const std::size_t around = bit(label);
-    for (std::size_t within = 1; within < kLabels; ++within) {
-      const double blocks = together_[within][within];
-      if (blocks > 0 && bareShare(within) < kEnclosed && isDeeper(within, around) &&
-          together_[within][around] > kMost * blocks)
+    constexpr double kSmaller = 0.8;
+    const IndexBox& around = boxes_[bit(label)];
+    for (std::size_t other = 1; other < kLabels; ++other) {
+      const IndexBox& box = boxes_[other];
+      if (!box.empty() && around.contains(box) && volumeOf(box) < kSmaller * volumeOf(around))
         return true;
     }
     return false;
@@ -55,19 +53,20 @@ class Nesting {
   static constexpr std::size_t kLabels = 64;
   static std::size_t bit(int label) { return static_cast<unsigned>(label) & (kLabels - 1); }
 
-  /// How many of a label's blocks hold voxels without a label, too.
-  double bareShare(std::size_t label) const {
-    return together_[label][0] / together_[label][label];
+  static double volumeOf(const IndexBox& box) {
+    const glm::dvec3 size{box.size()};
+    return size.x * size.y * size.z;
   }
 
-  /// Of two labels that lie bare nowhere the smaller one is the deeper.
-  bool isDeeper(std::size_t label, std::size_t than) const {
-    if (bareShare(label) != bareShare(than)) return bareShare(label) < bareShare(than);
-    return together_[label][label] < together_[than][than];
+  void add(const glm::ivec3& block, node::LabelSet set) {
+    for (; set != 0; set &= set - 1) {
+      IndexBox& box = boxes_[static_cast<std::size_t>(std::countr_zero(set))];
+      box.lo = glm::min(box.lo, block);
+      box.hi = glm::max(box.hi, block + 1);
+    }
   }
 
-  /// In how many blocks two labels occur.
-  std::array<std::array<double, kLabels>, kLabels> together_{};
+  std::array<IndexBox, kLabels> boxes_;
 };
 
 /// Those that occur, most voxels first; 0 is what belongs to none.
@@ -123,12 +122,18 @@ Layer layerOfOthers(std::span<const LabelShare> shares, const VolumeGrid& grid) 
   return layer;
 }
 
-/// firstView() of all that has a label.
+glm::ivec3 blocksOf(const VolumeGrid& grid) {
+  const int blockCells = node::blockCellsFor(grid.dims);
+  return (grid.cells() + blockCells - 1) / blockCells;
+}
+
+/// firstView() of all that has a label. Segmentations are of scans, whose slices lie along z, so
+/// that is up also where the file does not say it.
 CameraChoice viewOfLabels(const Scene& scene, const VolumeFacts& facts,
                           const node::LabelSurvey& survey) {
   node::BlockRanges blocks;
   blocks.blockCells = node::blockCellsFor(facts.grid.dims);
-  blocks.blocks = (facts.grid.cells() + blocks.blockCells - 1) / blocks.blockCells;
+  blocks.blocks = blocksOf(facts.grid);
   for (const node::LabelSet set : survey.blocks) {
     blocks.lowest.push_back(0);
     blocks.highest.push_back((set & ~node::labelSet(0)) != 0 ? 1.0f : 0.0f);
@@ -136,7 +141,9 @@ CameraChoice viewOfLabels(const Scene& scene, const VolumeFacts& facts,
   Scene shown = scene;
   shown.layers.resize(1);
   shown.layers[0].transferFunction.points = {{0.4, {}, 0}, {0.6, {}, 1}};
-  return firstView(shown, facts, blocks);
+  VolumeFacts scan = facts;
+  scan.anatomical = true;
+  return firstView(shown, scan, blocks);
 }
 
 }  // namespace
@@ -148,12 +155,12 @@ Scene makeLabelScene(const VolumeChoice& volume, const LabelVolumeChoice& labels
   if (shares.empty()) fail(ExitCode::kVolume, "{}: no voxel has a label", labels.file);
   constexpr auto kMost = static_cast<std::size_t>(kMostLabelLayers);
   const std::size_t own = shares.size() > kMost ? kMost - 1 : shares.size();
-  const Nesting nesting{survey};
+  const LabelBoxes boxes{survey, blocksOf(facts.grid)};
   Scene scene;
   scene.volume = volume;
   scene.labels = labels;
   for (const LabelShare& share : std::span{shares}.first(own))
-    scene.layers.push_back(layerOf(share, nesting.isAround(share.label), infos, facts.grid));
+    scene.layers.push_back(layerOf(share, boxes.isAround(share.label), infos, facts.grid));
   if (own < shares.size())
     scene.layers.push_back(layerOfOthers(std::span{shares}.subspan(own), facts.grid));
   scene.camera = viewOfLabels(scene, facts, survey);

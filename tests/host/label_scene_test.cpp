@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 
 namespace burin::host {
@@ -57,6 +58,20 @@ TEST(LabelScene, OnlyWhatLiesAroundOthersIsClear) {
   EXPECT_LT(extinctionOf(scene, "label 2"), 0.3);
   EXPECT_NEAR(extinctionOf(scene, "label 3"), 1, 1e-12);
   EXPECT_NEAR(extinctionOf(scene, "label 4"), 1, 1e-12);
+}
+
+TEST(LabelScene, SkinAroundAnOpenSkullIsClear) {
+  // A neck that is cut off by the volume's lower face; skin and bone share nearly all blocks.
+  const Scene scene = sceneOf(surveyOf([](const glm::ivec3& block) -> std::vector<int> {
+    const glm::ivec3 fromAxis = glm::abs(2 * block - 7);
+    const int away = std::max(fromAxis.x, fromAxis.y);
+    if (block.z > 6 || away > 5) return {0};
+    if (away > 3 || block.z > 5) return {0, 1};
+    return {0, 1, 2};
+  }));
+  EXPECT_LT(extinctionOf(scene, "label 1"), 0.3);
+  EXPECT_NEAR(extinctionOf(scene, "label 2"), 1, 1e-12);
+  EXPECT_EQ(scene.camera.upAxis, "z");
 }
 
 TEST(LabelScene, ManyLabelsShareTheLastLayer) {
