@@ -72,7 +72,7 @@ TEST(ProgramGenerator, TexturesAreThoseThatTheSceneNeeds) {
   };
   for (const std::string& style : test::drawnStyles()) {
     Scene scene = sceneWithStyle(style);
-    std::set<std::string> expected{"volume", "distanceMap"};
+    std::set<std::string> expected{"volume", "cellMap"};
     if (laplacianNeeded(scene)) expected.insert("laplacianField");
     if (style != "widgets") expected.insert({"transfer0", "extinctions0"});
     if (style == "line_opacity") expected.insert({"transfer1", "extinctions1"});
