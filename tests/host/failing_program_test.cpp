@@ -55,7 +55,7 @@ TEST_P(FailingProgram, CameraThatLooksNowhere) {
 }
 
 TEST_P(FailingProgram, FolderThatTakesNoFiles) {  // not even root's
-  expectFailure({"-o", "/sys/a.png"}, 2, HasSubstr("/sys/a.png: cannot write here"));
+  expectFailure({"-o", "/proc/a.png"}, 2, HasSubstr("/proc/a.png: cannot write here"));
   expectFailure({"-o", picture_, "--stats", "/proc/t.json"}, 2, HasSubstr("/proc/t.json"));
 }
 
