@@ -13,12 +13,15 @@
 
 namespace {
 
+/// Of burin's: ".NAME.PID-i.tmp". Mesa's cache of shaders has other ones.
 bool isTemporaryFile(int descriptor) {
   char link[64];
   char path[4096];
   std::snprintf(link, sizeof link, "/proc/self/fd/%d", descriptor);
   const ssize_t length = readlink(link, path, sizeof path);
-  return length > 0 && std::string_view{path, static_cast<std::size_t>(length)}.ends_with(".tmp");
+  if (length <= 0) return false;
+  const std::string_view file{path, static_cast<std::size_t>(length)};
+  return file.ends_with(".tmp") && file.substr(file.find_last_of('/') + 1).starts_with('.');
 }
 
 }  // namespace
