@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <utility>
 
 #include "burin/common/named_style.hpp"
 
@@ -179,22 +180,30 @@ TEST(DefaultScene, FaintThingsApartFromBrightOnesShow) {
   EXPECT_FALSE(shows(medium, 3));
 }
 
-/// A ball of 5 within 0, with values between at the places of blocks for which `isRough`.
-Scene ballScene(const std::function<bool(const glm::ivec3&)>& isRough, const VolumeFacts& facts) {
-  Known volume = known({900, 0, 0, 0, 0, 100});
+/// 16³ blocks of 4³ cells with these ranges, of few values that are not 0.
+Known knownBlocks(const std::function<std::pair<float, float>(const glm::ivec3&)>& rangeOf) {
   constexpr int kBlocks = 16;
+  Known volume = known({900, 0, 0, 0, 0, 100});
   volume.blocks = {};
   volume.blocks.blockCells = 4;
   volume.blocks.blocks = glm::ivec3{kBlocks};
   for (int z = 0; z < kBlocks; ++z)
     for (int y = 0; y < kBlocks; ++y)
       for (int x = 0; x < kBlocks; ++x) {
-        const glm::ivec3 block{x, y, z};
-        const double radius = glm::length(glm::dvec3{block} - 7.5);
-        const bool isShown = radius < 6;
-        volume.blocks.lowest.push_back(isShown && radius < 5 && !isRough(block) ? 5.0F : 0.0F);
-        volume.blocks.highest.push_back(isShown ? 5.0F : 0.0F);
+        const auto [lowest, highest] = rangeOf({x, y, z});
+        volume.blocks.lowest.push_back(lowest);
+        volume.blocks.highest.push_back(highest);
       }
+  return volume;
+}
+
+/// A ball of 5 within 0, with values between at the places of blocks for which `isRough`.
+Scene ballScene(const std::function<bool(const glm::ivec3&)>& isRough, const VolumeFacts& facts) {
+  const Known volume = knownBlocks([&](const glm::ivec3& block) {
+    const double radius = glm::length(glm::dvec3{block} - 7.5);
+    const bool isShown = radius < 6;
+    return std::pair{isShown && radius < 5 && !isRough(block) ? 5.0F : 0.0F, isShown ? 5.0F : 0.0F};
+  });
   return sceneOf(volume, facts);
 }
 
@@ -217,16 +226,10 @@ TEST(DefaultScene, LooksFromTheSideOfMostBoundaries) {
 CameraChoice viewOf(const std::function<bool(const glm::ivec3&)>& isShown) {
   VolumeFacts facts;
   facts.grid.dims = {65, 65, 65};
-  Known volume = known({900, 0, 0, 0, 0, 100});
-  constexpr int kBlocks = 16;
-  volume.blocks = {};
-  volume.blocks.blockCells = 4;
-  volume.blocks.blocks = glm::ivec3{kBlocks};
-  for (int z = 0; z < kBlocks; ++z)
-    for (int y = 0; y < kBlocks; ++y)
-      for (int x = 0; x < kBlocks; ++x)
-        volume.blocks.highest.push_back(isShown({x, y, z}) ? 5.0F : 0.0F);
-  volume.blocks.lowest = volume.blocks.highest;
+  const Known volume = knownBlocks([&](const glm::ivec3& block) {
+    const float value = isShown(block) ? 5.0F : 0.0F;
+    return std::pair{value, value};
+  });
   return sceneOf(volume, facts).camera;
 }
 
