@@ -31,8 +31,10 @@ add_custom_command(
 burin_library(node
   SOURCES src/gl.cpp src/osmesa_context.cpp src/egl_context.cpp src/offscreen_context.cpp
           src/thread_share.cpp src/shader_conditions.cpp src/shader_source.cpp
-           src/gl_program.cpp src/curve_code.cpp src/widget_code.cpp src/direction_palette.cpp src/program_generator.cpp
-           src/transfer_integral.cpp src/transfer_table.cpp
+          src/gl_program.cpp src/program_needs.cpp src/uniform_names.cpp src/curve_code.cpp
+          src/widget_code.cpp src/gradient_code.cpp src/style_code.cpp src/layer_code.cpp
+          src/program_generator.cpp src/direction_palette.cpp
+          src/transfer_integral.cpp src/transfer_table.cpp
           src/visible_values.cpp src/value_scale.cpp src/value_ranges.cpp src/clip_planes.cpp
           src/visible_blocks.cpp src/macrocell_ranges.cpp src/octant_plane.cpp src/macrocells.cpp src/dilated_marks.cpp src/chessboard_distance.cpp
           src/step_map.cpp src/brick_texture.cpp src/laplacian_texture.cpp src/label_masks.cpp src/label_texture.cpp
@@ -41,7 +43,8 @@ burin_library(node
           src/balanced_tree.cpp
           src/program_uniforms.cpp src/transfer_textures.cpp src/sample_counters.cpp
           src/frame_target.cpp src/layer_images.cpp src/brick_renderer.cpp src/raycaster.cpp
-          src/slicer.cpp src/projector.cpp src/group_renderer.cpp src/group_image.cpp src/technique.cpp src/worker.cpp ${embedded}
+          src/slicer.cpp src/projector.cpp src/group_renderer.cpp src/group_image.cpp src/technique.cpp
+          src/worker_needs.cpp src/brick_loading.cpp src/worker.cpp ${embedded}
   PUBLIC burin::volumes burin::compositor
   PRIVATE $<BUILD_INTERFACE:burin_gl_loader> ${CMAKE_DL_LIBS})
 burin_unity(burin_node)

@@ -6,8 +6,9 @@
 #include "clip_planes.hpp"
 #include "curve_code.hpp"
 #include "direction_palette.hpp"
-#include "program_generator.hpp"
+#include "program_needs.hpp"
 #include "transfer_textures.hpp"
+#include "uniform_names.hpp"
 #include "widget_code.hpp"
 
 namespace burin::node {

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "program_generator.hpp"
+#include "program_needs.hpp"
+#include "uniform_names.hpp"
 
 namespace burin::node {
 namespace {

@@ -6,98 +6,19 @@
 
 #include "balanced_tree.hpp"
 #include "brick.hpp"
+#include "brick_loading.hpp"
 #include "burin/common/error.hpp"
-#include "burin/common/memory_check.hpp"
 #include "burin/common/trace.hpp"
 #include "burin/node/thread_share.hpp"
 #include "clip_planes.hpp"
 #include "drawing_cost.hpp"
 #include "group_image.hpp"
 #include "group_renderer.hpp"
-#include "label_voxels.hpp"
 #include "visible_group.hpp"
+#include "worker_needs.hpp"
 
 namespace burin::node {
 namespace {
-
-// What is measured and loaded for a scene, for the foreseen ones at the same time.
-
-int ghostLayers(const Scene& scene, const WorkerOptions& options) {
-  int most = ghostLayersNeeded(scene);
-  for (const Scene& other : options.foreseen) most = std::max(most, ghostLayersNeeded(other));
-  return options.ghostLayers.value_or(most);
-}
-
-bool loadsLaplacian(const Scene& scene, const WorkerOptions& options) {
-  return laplacianNeeded(scene) || std::ranges::any_of(options.foreseen, laplacianNeeded);
-}
-
-SurveyRequest surveyFor(const Scene& scene, const WorkerOptions& options) {
-  SurveyRequest request{gradientOperatorsNeeded(scene), loadsLaplacian(scene, options)};
-  for (const Scene& other : options.foreseen)
-    request.gradients = request.gradients | gradientOperatorsNeeded(other);
-  return request;
-}
-
-/// `withLaplacian`: bricks have a texture of it too.
-BrickTree partition(const Communicator& comm, const DrawingCost& cost, int ghosts,
-                    const VolumeInfo& volume, const ValueScale& scale, bool withLaplacian,
-                    const WorkerOptions& options) {
-  const std::size_t texelBytes = std::max(bytesPerTexel(volume.type, scale.hasInvalid),
-                                          withLaplacian ? sizeof(float) : std::size_t{0});
-  BrickTree::Request request;
-  request.grid = volume.grid;
-  request.owners = comm.size() - (options.dedicatedHost ? 1 : 0);
-  request.bricks = options.bricks;
-  request.tooLarge = [&](const IndexBox& cells) {
-    const IndexBox stored = storedVoxels(cells, ghosts, volume.grid);
-    const glm::ivec3 size = stored.size();
-    return std::max({size.x, size.y, size.z}) > kLargestTextureExtent ||
-           stored.count() * texelBytes > kLargestTextureBytes;
-  };
-  return balancedTree(std::move(request), cost);
-}
-
-/// What this rank's bricks will take; `boxes`: the voxels they store.
-MemoryNeed needOf(std::span<const IndexBox> boxes, const VolumeInfo& volume,
-                  const ValueScale& scale, bool hasLaplacian, const LabelMasks& masks) {
-  /// Macrocells and distance maps beside the texels; `resident_voxel_bytes` is held to it.
-  constexpr double kWithMaps = 1.2;
-  std::size_t voxels = 0;
-  for (const IndexBox& box : boxes) voxels += box.count();
-  const std::size_t perVoxel = bytesPerTexel(volume.type, scale.hasInvalid) +
-                               (hasLaplacian ? sizeof(float) : 0) +
-                               (masks.sets().empty() ? 0 : bytesPerLabelTexel(masks.sets().size()));
-  const std::size_t texels = voxels * perVoxel;
-  return {
-      static_cast<std::int64_t>(kWithMaps * static_cast<double>(texels)),
-      fmt::format("{} brick{} with {} voxels", boxes.size(), boxes.size() == 1 ? "" : "s", voxels)};
-}
-
-constexpr std::size_t kSlabBytes = std::size_t{8} << 20;
-
-/// Collective. Voxels straight into textures; what is staged is a few times kSlabBytes.
-void loadBricks(const Communicator& comm, BrickSource& source, std::span<const IndexBox> boxes,
-                std::span<Brick> bricks) {
-  const TraceSpan loading{"load"};
-  StagingBuffer staging;
-  readSlabs(
-      comm, source, boxes,
-      [&](const Slab& slab) {
-        const TraceSpan span{"upload"};
-        bricks[slab.request].upload(slab.box, slab.voxels, staging);
-      },
-      kSlabBytes);
-}
-
-/// How far from a macrocell in which a value shows a layer may be bound to labels: as far as a
-/// segment's middle is from its end, to the voxels around the middle, and as far as a look-up may
-/// round.
-int labelReach(const Scene& scene) {
-  constexpr double kRounding = 0.01;
-  constexpr double kMost = kLargestTextureExtent;
-  return static_cast<int>(std::min(segmentReachVoxels(scene) + kRounding, kMost)) + 1;
-}
 
 /// What a scene may show, as far as that is known without voxels: the same on every rank.
 struct Shown {
@@ -361,7 +282,7 @@ void Worker::State::loadParts() {
   std::vector<IndexBox> boxes;
   for (const BrickId id : mine)
     if (!part(id).empty()) boxes.push_back(storedVoxels(part(id), ghosts, volume.grid));
-  const MemoryNeed need = needOf(boxes, volume, scale, hasLaplacian, LabelMasks{scene});
+  const MemoryNeed need = memoryNeedOf(boxes, volume, scale, hasLaplacian, LabelMasks{scene});
   checkMemory(comm, need);
   collectively(comm, "preparing to draw", [&] {
     if (!draws) return;  // an idle rank needs no OpenGL
@@ -390,25 +311,7 @@ void Worker::State::loadMasks() {
   masks = LabelMasks{scene};
   maskReach = labelReach(scene);
   if (masks.sets().empty()) return;
-  const TraceSpan loading{"load labels"};
-  std::vector<IndexBox> boxes;
-  collectively(comm, "making room for labels", [&] {
-    for (Brick& brick : bricks) {
-      brick.makeLabels(masks.sets().size(), maskReach);
-      boxes.push_back(brick.storedVoxels());
-    }
-  });
-  std::vector<int> labels;
-  std::vector<MaskBits> bits;
-  const auto take = [&](const Slab& slab) {
-    readLabels(options.labels->info(), slab.voxels, labels);
-    masks.bitsOf(labels, bits);
-    bricks[slab.request].uploadLabels(slab.box, bits);
-  };
-  constexpr std::size_t kLabelsOfSlab = std::size_t{1}
-                                        << 20;  // each takes 7 bytes beside its voxel
-  readSlabs(comm, *options.labels, boxes, take,
-            kLabelsOfSlab * bytesPerVoxel(options.labels->info().type));
+  loadLabels(comm, *options.labels, masks, maskReach, bricks);
 }
 
 /// Collective. What load() does where the bricks' voxels stay and the scene has other labels.

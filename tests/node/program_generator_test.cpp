@@ -11,6 +11,7 @@
 #include "burin/node/offscreen_context.hpp"
 #include "gl_program.hpp"
 #include "support/scenes.hpp"
+#include "uniform_names.hpp"
 
 namespace burin::node {
 namespace {
