@@ -77,12 +77,16 @@ Scene parseMadeScene(const Communicator& comm, const std::string& text, const st
   return parseForAll(comm, text, "scene made for " + madeFor, withoutQuality);
 }
 
+/// Leaves in `prepared` the survey that the scene is made from, with the gradients that such scenes
+/// are drawn with.
 Scene sceneFromVolume(const Communicator& comm, const RenderOptions& options,
-                      const VolumeChoice& choice, node::BrickSource& source,
-                      const VolumeFacts& facts) {
-  const auto survey = node::surveyVolume(comm, source, {});
-  const MaterialProfile profile = profileMaterials(comm, source, survey);
-  const std::string text = writeScene(makeDefaultScene(choice, facts, profile, survey.blocks));
+                      const VolumeChoice& choice, PreparedScene& prepared) {
+  node::KnownSurvey& known = prepared.survey.emplace();
+  known.request.gradients = GradientOperatorSet{GradientOperator::kCentral};
+  known.survey = node::surveyVolume(comm, *prepared.source, known.request);
+  const MaterialProfile profile = profileMaterials(comm, *prepared.source, known.survey);
+  const std::string text =
+      writeScene(makeDefaultScene(choice, prepared.facts, profile, known.survey.blocks));
   Scene scene = parseMadeScene(comm, text, choice.file, options);
   scene.volume = choice;
   return scene;
@@ -145,7 +149,7 @@ PreparedScene prepareScene(const Communicator& comm, const RenderOptions& option
   if (!hasScene && prepared.labels)
     prepared.scene = sceneFromLabels(comm, options, choice, labels, prepared);
   else if (!hasScene)
-    prepared.scene = sceneFromVolume(comm, options, choice, *prepared.source, prepared.facts);
+    prepared.scene = sceneFromVolume(comm, options, choice, prepared);
   resolveLabels(comm, prepared);
   resolveScene(prepared.scene, prepared.facts);
   return prepared;
@@ -153,6 +157,7 @@ PreparedScene prepareScene(const Communicator& comm, const RenderOptions& option
 
 node::WorkerOptions workerOptions(const PreparedScene& prepared, node::WorkerOptions options) {
   options.labels = prepared.labels.get();
+  options.survey = prepared.survey ? &*prepared.survey : nullptr;
   return options;
 }
 

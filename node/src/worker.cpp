@@ -218,13 +218,14 @@ void Worker::State::setRenderers() {
 /// Collective. The survey, and what follows from it, if the scene needs more than there is.
 void Worker::State::measure() {
   const SurveyRequest needed = surveyFor(scene, options);
-  if (isSurveyed && surveyed.gradients.contains(needed.gradients) &&
-      needed.laplacian <= surveyed.laplacian)
-    return;
-  const SurveyRequest all{surveyed.gradients | needed.gradients,
-                          surveyed.laplacian || needed.laplacian};
-  survey = surveyVolume(comm, source, all);
-  surveyed = all;
+  if (isSurveyed && surveyed.contains(needed)) return;
+  if (!isSurveyed && options.survey != nullptr && options.survey->request.contains(needed)) {
+    survey = options.survey->survey;
+    surveyed = options.survey->request;
+  } else {
+    surveyed = {surveyed.gradients | needed.gradients, surveyed.laplacian || needed.laplacian};
+    survey = surveyVolume(comm, source, surveyed);
+  }
   scale = valueScaleOf(source.info().type, survey);
   blocks = VisibleBlocks{survey, scale};
   survey.blocks = {};

@@ -141,6 +141,18 @@ TEST_P(Trace, HasEveryRankAndPhaseAndAgreesWithTheStatistics) {
   }
 }
 
+TEST(TraceWithoutAScene, TheVolumeIsSurveyedOnce) {
+  const TemporaryFolder folder;
+  const auto made = runBurin(
+      {"make-volume", "shells", "--dims", "20,18,16", "--type", "u8", "-o", folder / "v.nrrd"});
+  ASSERT_EQ(made.exitCode, 0) << made.err;
+  const auto drawn = runBurin({"render", folder / "v.nrrd", "-o", folder / "a.png", "--size",
+                               "48x40", "--trace", folder / "c.json"});
+  ASSERT_EQ(drawn.exitCode, 0) << drawn.err;
+  const std::vector<Row> rows = rowsOf(json::parse(std::ifstream{folder / "c.json"}), 1);
+  EXPECT_EQ(named(rows[0], "survey").size(), 1u);
+}
+
 INSTANTIATE_TEST_SUITE_P(Ranks, Trace, ::testing::Values(0, 3));
 
 }  // namespace

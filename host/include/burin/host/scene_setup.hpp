@@ -1,12 +1,14 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "burin/common/communicator.hpp"
 #include "burin/common/labels.hpp"
 #include "burin/common/scene.hpp"
 #include "burin/host/command_line.hpp"
 #include "burin/node/brick_source.hpp"
+#include "burin/node/survey.hpp"
 #include "burin/node/worker.hpp"
 
 namespace burin::host {
@@ -16,6 +18,7 @@ struct PreparedScene {
   Scene scene;  ///< resolved; volume.file can be opened from the working directory
   std::unique_ptr<node::BrickSource> source;
   VolumeFacts facts;
+  std::optional<node::KnownSurvey> survey;    ///< if the scene was made from one
   std::unique_ptr<node::BrickSource> labels;  ///< the label volume, if the scene names one
   std::vector<LabelInfo> labelInfos;          ///< what is known of its labels
 };

@@ -54,6 +54,10 @@ struct GradientScales {
 struct SurveyRequest {
   GradientOperatorSet gradients;
   bool laplacian = false;
+  /// Whether nothing of another request is missing.
+  bool contains(const SurveyRequest& other) const {
+    return gradients.contains(other.gradients) && other.laplacian <= laplacian;
+  }
 };
 
 /// Facts of the whole volume, the same on all ranks and for any number of ranks.
@@ -67,6 +71,12 @@ struct VolumeSurvey {
   /// asked for.
   double laplacian999 = 0;
   BlockRanges blocks;
+};
+
+/// A survey and what it was asked for.
+struct KnownSurvey {
+  SurveyRequest request;
+  VolumeSurvey survey;
 };
 
 /// Collective. One pass over all voxels, split among the ranks by slabs. Of gradients and the

@@ -43,6 +43,9 @@ struct WorkerOptions {
   /// The label volume (checkLabelVolume), which must still be there for updates; needed for scenes
   /// with layers that are bound to labels.
   BrickSource* labels = nullptr;
+  /// Of the volume: spares the worker a survey of its own, if the first scene and the foreseen ones
+  /// need no more. Is not looked at any more when the worker is made.
+  const KnownSurvey* survey = nullptr;
   /// Overrides what the scene's styles declare: tests show with it that the declaration is needed.
   std::optional<int> ghostLayers = std::nullopt;
 };
