@@ -21,11 +21,15 @@ std::optional<Number> number(std::string_view text) {
   return value;
 }
 
+/// `separator`: of the characters in it, the one that comes first stands in both places.
 template <typename Number>
-std::optional<std::array<Number, 3>> triple(std::string_view text) {
+std::optional<std::array<Number, 3>> triple(std::string_view text, std::string_view separator) {
   std::array<Number, 3> values{};
+  const std::size_t first = text.find_first_of(separator);
+  if (first == std::string_view::npos) return std::nullopt;
+  const char between = text[first];
   for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t comma = i < 2 ? text.find(',') : text.size();
+    const std::size_t comma = i < 2 ? text.find(between) : text.size();
     if (comma == std::string_view::npos) return std::nullopt;
     const auto value = number<Number>(text.substr(0, comma));
     if (!value) return std::nullopt;
@@ -38,8 +42,9 @@ std::optional<std::array<Number, 3>> triple(std::string_view text) {
 }  // namespace
 
 glm::ivec3 parseDims(const std::string& text, const std::string& option) {
-  const auto values = triple<int>(text);
-  if (!values) fail(ExitCode::kUsage, "{} {}: expected X,Y,Z, e.g. 256,256,128", option, text);
+  const auto values = triple<int>(text, ",xX");  // files are named by 256x256x128
+  if (!values)
+    fail(ExitCode::kUsage, "{} {}: expected X,Y,Z or XxYxZ, e.g. 256,256,128", option, text);
   for (const int value : *values) {
     if (value < 1 || value > kMostVoxelsPerAxis)
       fail(ExitCode::kUsage, "{} {}: each must be from 1 to {}", option, text, kMostVoxelsPerAxis);
@@ -48,7 +53,7 @@ glm::ivec3 parseDims(const std::string& text, const std::string& option) {
 }
 
 glm::dvec3 parseSpacing(const std::string& text, const std::string& option) {
-  const auto values = triple<double>(text);
+  const auto values = triple<double>(text, ",");
   if (!values) fail(ExitCode::kUsage, "{} {}: expected X,Y,Z, e.g. 0.5,0.5,1.2", option, text);
   for (const double value : *values) {
     if (!std::isfinite(value) || value <= 0)

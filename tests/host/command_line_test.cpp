@@ -182,7 +182,7 @@ TEST(CommandLine, OtherCommands) {
   EXPECT_EQ(make.type, "f32");
   EXPECT_EQ(make.spacing, glm::dvec3(1));
   EXPECT_EQ(make.output, "a.nrrd");
-  const auto info = std::get<InfoOptions>(parse({"info", "v.raw", "--dims", "1,2,3"}));
+  const auto info = std::get<InfoOptions>(parse({"info", "v.raw", "--dims", "1x2x3"}));
   EXPECT_EQ(info.volume, "v.raw");
   EXPECT_EQ(info.raw.dims, glm::ivec3(1, 2, 3));
   EXPECT_TRUE(std::holds_alternative<StylesOptions>(parse({"styles"})));
@@ -234,6 +234,7 @@ INSTANTIATE_TEST_SUITE_P(
                                "--type is given 3 times"},
                       BadUsage{{"render", "s.json", "--dims", "3,4"}, "--dims 3,4"},
                       BadUsage{{"render", "s.json", "--dims", "3,4,5,6"}, "--dims 3,4,5,6"},
+                      BadUsage{{"render", "s.json", "--dims", "3x4,5"}, "--dims 3x4,5"},
                       BadUsage{{"render", "s.json", "--dims", "3,4,0"}, "--dims 3,4,0"},
                       BadUsage{{"render", "s.json", "--dims", "3,4,99999999999"}, "--dims"},
                       BadUsage{{"render", "s.json", "--spacing", "1,-1,1"}, "--spacing"},

@@ -175,7 +175,7 @@ Command parseCommandLine(std::span<const char* const> arguments, int ranks);
 /// Whether an input file is a scene: by its name, which ends in .json or .jsonc.
 bool isSceneFile(const std::filesystem::path& file);
 
-/// "X,Y,Z", e.g. "256,256,128"; each in [1, 2^20]. Throws Error{kUsage} naming `option`.
+/// "X,Y,Z" or "XxYxZ", e.g. "256x256x128"; each in [1, 2^20]. Throws Error{kUsage} naming `option`.
 glm::ivec3 parseDims(const std::string& text, const std::string& option);
 /// "X,Y,Z", e.g. "0.5,0.5,1.2"; each finite and > 0. Throws Error{kUsage} naming `option`.
 glm::dvec3 parseSpacing(const std::string& text, const std::string& option);
