@@ -234,6 +234,13 @@ bool isFlat(const glm::dvec3& extent) {
   return extent.z < kFlat * std::min(extent.x, extent.y);
 }
 
+/// How far a box of so many cells reaches along the world's axes.
+glm::dvec3 worldExtent(const VolumeGrid& grid, const glm::ivec3& cells) {
+  const glm::dmat3 steps = grid.indexToWorld();
+  return glm::abs(steps[0]) * double(cells.x) + glm::abs(steps[1]) * double(cells.y) +
+         glm::abs(steps[2]) * double(cells.z);
+}
+
 /// The magnification at which the box of cells just fits the picture.
 double zoomToFit(const Scene& scene, const VolumeFacts& facts, const IndexBox& cells) {
   constexpr double kFilled = 0.94;  // of the picture's half sides
@@ -262,7 +269,7 @@ CameraChoice firstView(const Scene& scene, const VolumeFacts& facts,
   constexpr double kElongated = 1.5;
   const VisibleMass mass{scene, facts, blocks};
   const IndexBox shown = mass.bounds();
-  const glm::dvec3 extent = glm::dvec3{shown.size()} * facts.grid.spacing;
+  const glm::dvec3 extent = worldExtent(facts.grid, shown.size());
   Scene viewed = scene;
   CameraChoice& camera = viewed.camera;
   const bool isFlatBox = isFlat(glm::dvec3{facts.grid.cells()} * facts.grid.spacing);

@@ -68,10 +68,11 @@ constexpr std::array<ProceduralKind, 7> kKinds{{
     {"homogeneous", "one half everywhere", homogeneous},
     {"ramp", "linear along x from 0 to 1", ramp},
     {"vessels", "a branching tree of smooth tubes", vessels},
-    {"ct-phantom", "a head with CT-like values: skin, skull, brain, ventricles, eyes", ctPhantom},
+    {"ct-phantom", "a head with CT-like values: skin, skull, brain, ventricles, eyes", ctPhantom,
+     false, true},
     {"ct-phantom-labels",
      "its segmentation (u8): 1 soft tissue, 2 bone, 3 brain, 4 ventricles, 5 lesion, 6 eyes",
-     ctPhantomLabels, true},
+     ctPhantomLabels, true, true},
 }};
 
 const ProceduralKind& kindNamed(std::string_view name) {
@@ -167,6 +168,8 @@ std::unique_ptr<BrickSource> makeProcedural(std::string_view name, const glm::iv
   info.type = type;
   info.grid.dims = checkedDims(info.name, {dims.x, dims.y, dims.z}, ExitCode::kUsage);
   info.grid.spacing = spacing;
+  info.anatomical = kind.isAnatomical;
+  if (kind.isAnatomical) info.grid.direction = {{1, 0, 0}, {0, 0, 1}, {0, -1, 0}};  // in LPS
   checkGrid(info.name, info.grid, ExitCode::kUsage);
   return std::make_unique<ProceduralSource>(std::move(info), kind);
 }

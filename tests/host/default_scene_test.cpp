@@ -241,6 +241,22 @@ TEST(DefaultScene, WhatStandsOnAFloorStandsUpright) {
   EXPECT_EQ(viewOf([&](const glm::ivec3& b) { return floor({b.y, b.z, b.x}); }).upAxis, "y");
 }
 
+TEST(DefaultScene, LooksAtTheBroadSideInTheWorld) {
+  VolumeFacts facts;
+  facts.anatomical = true;
+  facts.grid.dims = {65, 65, 65};
+  const auto blade = [](const glm::ivec3& b) {
+    return std::abs(b.x - 8) < 2 && std::abs(b.y - 8) < 2 && std::abs(b.z - 8) < 6;
+  };
+  const Known volume = knownBlocks([&](const glm::ivec3& block) {
+    const float value = blade(block) ? 5.0F : 0.0F;
+    return std::pair{value, value};
+  });
+  EXPECT_EQ(sceneOf(volume, facts).camera.azimuthDeg, 30);    // it is as deep as it is wide
+  facts.grid.direction = {{1, 0, 0}, {0, 0, 1}, {0, -1, 0}};  // its planes are coronal
+  EXPECT_EQ(sceneOf(volume, facts).camera.azimuthDeg, 60);
+}
+
 TEST(DefaultScene, TablesLieBelow) {
   // A ball in the middle, a sheet a little away from it, and a speck beyond the sheet.
   const auto onTable = [](const glm::ivec3& b) {

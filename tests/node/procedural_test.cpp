@@ -128,6 +128,20 @@ TEST(Procedural, PhantomHasATissuesNumbers) {
   EXPECT_EQ(at(0.605, 0.5, 0.795), 15);           // eye
 }
 
+TEST(Procedural, TheHeadSaysHowItStands) {
+  for (const char* kind : {"ct-phantom", "ct-phantom-labels"}) {
+    const auto source = node::makeProcedural(kind, {41, 41, 41}, VoxelType::kU8, glm::dvec3{2});
+    EXPECT_TRUE(source->info().anatomical);
+    const VolumeGrid& grid = source->info().grid;
+    const auto fromCentre = [&](const glm::dvec3& p) {
+      return grid.worldFromIndex(40.0 * p) - grid.centreWorld();
+    };
+    // Left, posterior, superior: the crown is above, the eyes are in front.
+    EXPECT_NEAR(glm::length(fromCentre({0.5, 1, 0.5}) - glm::dvec3{0, 0, 40}), 0, 1e-12);
+    EXPECT_LT(fromCentre({0.605, 0.5, 0.795}).y, -20);
+  }
+}
+
 TEST(Procedural, HomogeneousVoxelsHaveOneValue) {
   const auto u8 = node::makeProcedural("homogeneous", {9, 8, 7}, VoxelType::kU8, glm::dvec3{1});
   const auto voxels = loadedWhole<std::uint8_t>(*u8);

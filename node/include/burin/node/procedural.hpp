@@ -19,6 +19,9 @@ struct ProceduralKind {
   std::string_view help;  ///< one line
   double (*value)(const glm::dvec3& p);
   bool isLabels = false;  ///< a segmentation: label / 255, of type u8 only
+  /// A body in its file's frame: x to its left, y up, z to its front. Others say nothing of where
+  /// they are.
+  bool isAnatomical = false;
 };
 
 /// marschner-lobb, shells, homogeneous, ramp, vessels, ct-phantom, ct-phantom-labels.
