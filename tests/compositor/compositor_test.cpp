@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cstring>
+#include <map>
+#include <new>
 
 #include "burin/compositor/in_process_executor.hpp"
 #include "support/mpi_test.hpp"
@@ -75,6 +78,34 @@ Image<typename A::Pixel> expected(ImageSize frame, const std::vector<Rank>& orde
                                   const std::vector<Subimage<typename A::Pixel>>& byRank) {
   return test::combineSerially<A>(frame, frontToBack(byRank, order));
 }
+
+enum class Work { kStore, kLoad, kCombine };
+
+/// Over whose pixels `fails` to be stored, loaded or combined on this rank while it is set.
+struct Failing : Over {
+  static constexpr bool kWireIsMemory = false;  // so that every pixel is stored and loaded
+  static inline std::optional<Work> fails;
+  static inline bool hasFailed = false;
+
+  static Rgba combine(const Rgba& front, const Rgba& back) {
+    if (isMet(Work::kCombine)) throw std::bad_alloc{};
+    return Over::combine(front, back);
+  }
+  static std::size_t store(const Rgba& pixel, std::span<std::byte> out) {
+    if (isMet(Work::kStore)) throw std::bad_alloc{};
+    return Over::store(pixel, out);
+  }
+  static std::size_t load(std::span<const std::byte> in, Rgba& into) {
+    return isMet(Work::kLoad) ? 0 : Over::load(in, into);
+  }
+
+ private:
+  static bool isMet(Work work) {
+    hasFailed |= fails == work;
+    return fails == work;
+  }
+};
+static_assert(PixelAlgebra<Failing>);
 
 struct Way {
   std::string name;
@@ -207,6 +238,64 @@ TEST_P(Composite, DrawingFailsOnAnyRank) {
   if (world().isRoot()) {
     EXPECT_TRUE(test::areEqual(
         *image, test::combineSerially<Affine>(frame, frontToBack(byRank, shuffledRanks(3)))));
+  }
+}
+
+// While pixels are swapped and gathered: with `isSpread` all ranks draw everywhere, else each draws
+// rows of its own, which nobody combines. Nobody waits for a message that does not come, and the
+// frame after is whole.
+TEST_P(Composite, MergingFailsOnAnyRank) {
+  const ImageSize frame{24, 16 * world().size()};
+  const auto order = shuffledRanks(4);
+  std::map<std::pair<Work, bool>, int> failures;
+  for (const bool isSpread : {true, false}) {
+    std::vector<Subimage<Rgba>> byRank;
+    for (int rank = 0; rank < world().size(); ++rank) {
+      const PixelRect rows = isSpread ? PixelRect{0, 0, frame.width, frame.height}
+                                      : PixelRect{0, 16 * rank, frame.width, 16 * (rank + 1)};
+      byRank.push_back(
+          {frame, rows,
+           std::vector<Rgba>(rows.pixels(), {0.1f * static_cast<float>(rank), 0, 0, 0.5f})});
+    }
+    const auto whole = composed<Failing>(options_, order, byRank, statistics_);
+    for (const Work work : {Work::kStore, Work::kLoad, Work::kCombine}) {
+      for (int culprit = 0; culprit < world().size(); ++culprit) {
+        SCOPED_TRACE(fmt::format("work {}, rank {}", static_cast<int>(work), culprit));
+        std::optional<Rank> accused;
+        std::optional<Image<Rgba>> image;
+        Failing::hasFailed = false;
+        if (rankIndex() == culprit) Failing::fails = work;
+        try {
+          image = composed<Failing>(options_, order, byRank, statistics_);
+        } catch (const CollectiveError& e) {
+          accused = e.culprit();
+        }
+        Failing::fails.reset();
+        bool hasFailed = Failing::hasFailed;
+        broadcastBytes(world(), std::as_writable_bytes(std::span{&hasFailed, 1}), Rank{culprit});
+        EXPECT_EQ(accused, hasFailed ? std::optional{Rank{culprit}} : std::nullopt);
+        if (!hasFailed && image) {
+          EXPECT_TRUE(test::areEqual(*image, *whole));
+        }
+        failures[{work, isSpread}] += hasFailed ? 1 : 0;
+        const auto after = composed<Failing>(options_, order, byRank, statistics_);
+        if (after) {
+          EXPECT_TRUE(test::areEqual(*after, *whole));
+        }
+      }
+    }
+  }
+  const int others = world().size() - 1;
+  const bool isByMessage = !(options_.isSharingMemory && compositor().hosts().isSharing());
+  EXPECT_EQ((failures[{Work::kCombine, false}]), 0);
+  EXPECT_GE((failures[{Work::kCombine, true}]), std::min(others, 1));
+  // Gathered by message: all but the root store, the root alone loads.
+  EXPECT_EQ((failures[{Work::kStore, false}]), isByMessage ? others : 0);
+  EXPECT_EQ((failures[{Work::kLoad, false}]), isByMessage ? std::min(others, 1) : 0);
+  if (options_.schedule == ScheduleOptions{ScheduleKind::kBinarySwap} &&
+      std::has_single_bit(static_cast<unsigned>(world().size())) && others > 0) {
+    EXPECT_EQ((failures[{Work::kCombine, true}]), world().size());
+    EXPECT_EQ((failures[{Work::kStore, true}]), world().size());  // within a host, too
   }
 }
 
