@@ -55,6 +55,8 @@ build_jobs() {
 if [[ -z ${CMAKE_CXX_COMPILER_LAUNCHER+set} ]] && command -v ccache >/dev/null; then
   export CMAKE_CXX_COMPILER_LAUNCHER=ccache
   export CCACHE_SLOPPINESS=${CCACHE_SLOPPINESS:-pch_defines,time_macros}  # for precompiled headers
+  # Clones in other folders find what this one has compiled.
+  export CCACHE_BASEDIR=${CCACHE_BASEDIR:-$burin_root} CCACHE_NOHASHDIR=${CCACHE_NOHASHDIR:-true}
 fi
 
 # Open MPI in containers: root is the usual user, the kernel may refuse one process to read another
