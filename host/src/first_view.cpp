@@ -83,6 +83,29 @@ class VisibleMass {
     return box.empty() ? IndexBox{glm::ivec3{0}, cells_} : box;
   }
 
+  /// Calls visit(box of cells) for the first and the last block that can show of every row of
+  /// blocks along x, beyond which nothing shows; for the whole volume if nothing can.
+  template <typename Visit>
+  void forRowEnds(Visit&& visit) const {
+    const auto cellsOf = [&](const glm::ivec3& block) {
+      return IndexBox{block * blocks_.blockCells,
+                      glm::min((block + 1) * blocks_.blockCells, cells_)};
+    };
+    bool shows = false;
+    for (int z = 0; z < blocks_.blocks.z; ++z)
+      for (int y = 0; y < blocks_.blocks.y; ++y) {
+        int first = 0;
+        while (first < blocks_.blocks.x && !(at({first, y, z}) > 0)) ++first;
+        if (first == blocks_.blocks.x) continue;
+        int last = blocks_.blocks.x - 1;
+        while (!(at({last, y, z}) > 0)) --last;
+        visit(cellsOf({first, y, z}));
+        visit(cellsOf({last, y, z}));
+        shows = true;
+      }
+    if (!shows) visit(bounds());
+  }
+
   /// Correlation of the mass with its mirror image across the plane through its centre that is
   /// normal to `axis`; 1 is symmetric.
   double symmetry(int axis) const {
@@ -241,23 +264,25 @@ glm::dvec3 worldExtent(const VolumeGrid& grid, const glm::ivec3& cells) {
          glm::abs(steps[2]) * double(cells.z);
 }
 
-/// The magnification at which the box of cells just fits the picture.
-double zoomToFit(const Scene& scene, const VolumeFacts& facts, const IndexBox& cells) {
+/// The magnification at which all that can show just fits the picture.
+double zoomToFit(const Scene& scene, const VolumeFacts& facts, const VisibleMass& mass) {
   constexpr double kFilled = 0.94;  // of the picture's half sides
   constexpr double kLargest = 20;
   const Camera camera = resolveCamera(scene, facts);
-  const Box box = facts.grid.cellBoxIndex(cells);
+  const bool isPerspective = camera.projection == Projection::kPerspective;
   double farthest = 0;
-  for (int corner = 0; corner < 8; ++corner) {
-    const glm::bvec3 upper{(corner & 1) != 0, (corner & 2) != 0, (corner & 4) != 0};
-    const glm::dvec3 offset =
-        facts.grid.worldFromIndex(glm::mix(box.lo, box.hi, upper)) - camera.eyeWorld;
-    const double depth =
-        camera.projection == Projection::kPerspective ? glm::dot(offset, camera.forward) : 1;
-    const double x = glm::dot(offset, camera.right) / depth / camera.image.width;
-    const double y = glm::dot(offset, camera.up) / depth / camera.image.height;
-    farthest = std::max({farthest, std::abs(x), std::abs(y)});
-  }
+  mass.forRowEnds([&](const IndexBox& cells) {
+    const Box box = facts.grid.cellBoxIndex(cells);
+    for (int corner = 0; corner < 8; ++corner) {
+      const glm::bvec3 upper{(corner & 1) != 0, (corner & 2) != 0, (corner & 4) != 0};
+      const glm::dvec3 offset =
+          facts.grid.worldFromIndex(glm::mix(box.lo, box.hi, upper)) - camera.eyeWorld;
+      const double depth = isPerspective ? glm::dot(offset, camera.forward) : 1;
+      const double x = glm::dot(offset, camera.right) / depth / camera.image.width;
+      const double y = glm::dot(offset, camera.up) / depth / camera.image.height;
+      farthest = std::max({farthest, std::abs(x), std::abs(y)});
+    }
+  });
   const double fitting = kFilled * camera.pixelSize / 2 / farthest;
   return std::clamp(std::floor(20 * fitting) / 20, 0.5, kLargest);  // a number that people can read
 }
@@ -268,8 +293,7 @@ CameraChoice firstView(const Scene& scene, const VolumeFacts& facts,
                        const node::BlockRanges& blocks) {
   constexpr double kElongated = 1.5;
   const VisibleMass mass{scene, facts, blocks};
-  const IndexBox shown = mass.bounds();
-  const glm::dvec3 extent = worldExtent(facts.grid, shown.size());
+  const glm::dvec3 extent = worldExtent(facts.grid, mass.bounds().size());
   Scene viewed = scene;
   CameraChoice& camera = viewed.camera;
   const bool isFlatBox = isFlat(glm::dvec3{facts.grid.cells()} * facts.grid.spacing);
@@ -283,7 +307,7 @@ CameraChoice firstView(const Scene& scene, const VolumeFacts& facts,
   if (!facts.anatomical && isTurnedAway(mass, isUpZ)) camera.azimuthDeg += 180;
   if (!facts.anatomical && isUpsideDown(mass, up, facts.grid.cells()[up])) turnOver(camera);
   camera.azimuthDeg = std::fmod(camera.azimuthDeg, 360);
-  camera.zoom = zoomToFit(viewed, facts, shown);
+  camera.zoom = zoomToFit(viewed, facts, mass);
   return camera;
 }
 

@@ -257,6 +257,41 @@ TEST(DefaultScene, LooksAtTheBroadSideInTheWorld) {
   EXPECT_EQ(sceneOf(volume, facts).camera.azimuthDeg, 60);
 }
 
+/// The place farthest out of all that shows, as a share of half the picture.
+double farthestOut(const Scene& scene, const VolumeFacts& facts,
+                   const std::function<bool(const glm::ivec3&)>& isShown) {
+  const Camera camera = resolveCamera(scene, facts);
+  double farthest = 0;
+  for (int i = 0; i < 16 * 16 * 16 * 8; ++i) {
+    const glm::ivec3 block{i / 8 % 16, i / 128 % 16, i / 2048};
+    if (!isShown(block)) continue;
+    const glm::ivec3 corner = 4 * (block + glm::ivec3{i & 1, (i >> 1) & 1, (i >> 2) & 1});
+    const glm::dvec3 ray = facts.grid.worldFromIndex(glm::dvec3{corner}) - camera.eyeWorld;
+    const glm::dvec2 place = glm::dvec2{glm::dot(ray, camera.right), glm::dot(ray, camera.up)} /
+                             (glm::dot(ray, camera.forward) * camera.pixelSize);
+    farthest = std::max({farthest, 2 * std::abs(place.x) / camera.image.width,
+                         2 * std::abs(place.y) / camera.image.height});
+  }
+  return farthest;
+}
+
+TEST(DefaultScene, WhatShowsFillsThePicture) {
+  VolumeFacts facts;
+  facts.grid.dims = {65, 65, 65};
+  const auto ball = [](const glm::ivec3& b) { return glm::length(glm::dvec3{b} - 7.5) < 6; };
+  const auto rod = [](const glm::ivec3& b) { return b.x == b.y && b.y == b.z && b.x > 2; };
+  for (const auto isShown : {+ball, +rod}) {
+    const Known volume = knownBlocks([&](const glm::ivec3& block) {
+      const float value = isShown(block) ? 5.0F : 0.0F;
+      return std::pair{value, value};
+    });
+    const Scene scene = sceneOf(volume, facts);
+    const double farthest = farthestOut(scene, facts, isShown);
+    EXPECT_LE(farthest, 0.94);
+    EXPECT_GT(farthest, 0.94 * (1 - 0.05 / scene.camera.zoom));  // zooms are multiples of 0.05
+  }
+}
+
 TEST(DefaultScene, TablesLieBelow) {
   // A ball in the middle, a sheet a little away from it, and a speck beyond the sheet.
   const auto onTable = [](const glm::ivec3& b) {
