@@ -47,7 +47,8 @@ burin_volumes_module(burin_picture_files BURIN_PICTURE_FILES_MODULE)
 add_library(burin_formats MODULE src/format_module.cpp
   src/hdf5_volume.cpp src/hdf5_voxels.cpp src/hdf5_dataset.cpp src/hdf5_id.cpp src/hdf5_name.cpp
   src/dicom_volume.cpp src/dicom_table.cpp src/dicom_series.cpp src/dicom_folder.cpp
-  src/dicom_image.cpp src/dicom_syntax.cpp src/dicom_pixels.cpp src/dicom_file.cpp)
+  src/dicom_image.cpp src/dicom_syntax.cpp src/dicom_pixels.cpp src/dicom_file.cpp
+  src/jpeg_header.cpp)
 target_link_libraries(burin_formats PRIVATE burin::stored nlohmann_json::nlohmann_json
   DCMTK::dcmtk PkgConfig::HDF5 burin_warnings)
 target_include_directories(burin_formats PRIVATE include)

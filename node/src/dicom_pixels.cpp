@@ -1,10 +1,13 @@
 #include "dicom_pixels.hpp"
 
 #include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dccodec.h>
 #include <dcmtk/dcmdata/dcdatset.h>
 #include <dcmtk/dcmdata/dcdeftag.h>
 #include <dcmtk/dcmdata/dcfcache.h>
 #include <dcmtk/dcmdata/dcpixel.h>
+#include <dcmtk/dcmdata/dcpixseq.h>
+#include <dcmtk/dcmdata/dcpxitem.h>
 #include <dcmtk/dcmdata/dcrledrg.h>
 #include <dcmtk/dcmjpeg/djdecode.h>
 #include <dcmtk/dcmjpls/djdecode.h>
@@ -16,6 +19,7 @@
 #include "burin/common/error.hpp"
 #include "dicom_file.hpp"
 #include "dicom_syntax.hpp"
+#include "jpeg_header.hpp"
 
 namespace burin::node {
 namespace {
@@ -79,6 +83,24 @@ void keepStoredBits(std::span<std::byte> pixels, const DicomImage& image) {
   });
 }
 
+/// Nothing if it has none, or no whole one.
+std::span<const std::byte> firstFragment(DcmPixelData& pixels, int frame, int frames) {
+  E_TransferSyntax syntax = EXS_Unknown;
+  const DcmRepresentationParameter* parameter = nullptr;
+  pixels.getOriginalRepresentationKey(syntax, parameter);
+  DcmPixelSequence* fragments = nullptr;
+  DcmPixelItem* item = nullptr;
+  Uint32 number = 0;
+  Uint8* bytes = nullptr;
+  if (pixels.getEncapsulatedRepresentation(syntax, parameter, fragments).bad() ||
+      DcmCodec::determineStartFragment(static_cast<Uint32>(frame), frames, fragments, number)
+          .bad() ||
+      fragments->getItem(item, number).bad() || item->getUint8Array(bytes).bad() ||
+      bytes == nullptr)
+    return {};
+  return std::as_bytes(std::span{bytes, item->getLength()});
+}
+
 }  // namespace
 
 struct DicomPixels::Open {
@@ -102,6 +124,10 @@ DicomPixels::DicomPixels(DicomImage image)
 DicomPixels::~DicomPixels() = default;
 
 void DicomPixels::readFrame(int frame, std::span<std::byte> out) {
+  // DCMTK 3.6 would look for it for ever among some markers that cannot stand before it.
+  if (dicomEncoding(image_) == "JPEG" &&
+      !hasJpegFrameHeader(firstFragment(*open_->pixels, frame, image_.layout.dims.z)))
+    failPixels(image_, "a frame does not begin as JPEG does");
   open_->scratch.resize(out.size() + out.size() % 2);
   Uint32 fragment = 0;  // the frame's first one: DCMTK finds it
   OFString colours;

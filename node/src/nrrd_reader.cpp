@@ -75,6 +75,15 @@ bool readLine(std::istream& in, std::string& line) {
   return !line.empty();
 }
 
+/// Teem puts what it cannot read into messages of 1 KiB at most, however long it is.
+constexpr std::size_t kLongestField = 512;
+constexpr std::size_t kLongestName = 768;
+
+/// Whether teem may quote the line: it takes comments and pairs of keys and values as they are.
+bool isField(const std::string& line) {
+  return !line.starts_with('#') && line.find(":=") == std::string::npos;
+}
+
 [[noreturn]] void failSeveral(const std::string& name) {
   fail(ExitCode::kVolume, "{}: several data files are not supported (expected one)", name);
 }
@@ -103,6 +112,9 @@ bool isPattern(const std::string& name) {
 /// first of them while it reads the header, and opening a FIFO would wait for ever.
 void checkBeforeTeem(const std::string& name) {
   regularFileSize(name);
+  if (name.size() > kLongestName)
+    fail(ExitCode::kVolume, "{}: a name of {} bytes (expected at most {} for NRRD)", name,
+         name.size(), kLongestName);
   const fs::path folder = fs::path{name}.parent_path();
   std::ifstream in{name, std::ios::binary};
   std::string line;
@@ -112,7 +124,10 @@ void checkBeforeTeem(const std::string& name) {
     fail(ExitCode::kVolume, "{}: bad NRRD header: its first line is not {} ... {}", name, kMagic[1],
          kMagic[6]);
   }
-  while (readLine(in, line) && !line.empty()) {
+  for (int number = 2; readLine(in, line) && !line.empty(); ++number) {
+    if (isField(line) && line.size() > kLongestField)
+      fail(ExitCode::kVolume, "{}: bad NRRD header: line {} has {} bytes (expected at most {})",
+           name, number, line.size(), kLongestField);
     const auto value = dataFileField(line);
     if (!value) continue;
     if (isPattern(*value)) failSeveral(name);

@@ -17,12 +17,13 @@ struct DicomBytes {
   int number = 1;
   double z = 0;  ///< mm; rows and columns begin at x = y = 0
   std::string pixels = "abcdefgh";
+  std::string jpeg;  ///< if there is any: packed, the one fragment of the one frame
 
   std::string bytes() const {
     const std::string instance = fmt::format("{}.{}", series, number);
-    const std::string meta = text(0x0002, 0x0002, "UI", kCtImage) +
-                             text(0x0002, 0x0003, "UI", instance) +
-                             text(0x0002, 0x0010, "UI", "1.2.840.10008.1.2.1");
+    const std::string meta =
+        text(0x0002, 0x0002, "UI", kCtImage) + text(0x0002, 0x0003, "UI", instance) +
+        text(0x0002, 0x0010, "UI", jpeg.empty() ? "1.2.840.10008.1.2.1" : kJpeg);
     const auto metaBytes = static_cast<std::uint32_t>(meta.size());
     return std::string(128, '\0') + "DICM" +
            element(0x0002, 0x0000, "UL", encoded(metaBytes, false)) + meta +
@@ -34,11 +35,25 @@ struct DicomBytes {
            text(0x0028, 0x0004, "CS", "MONOCHROME2") + number16(0x0028, 0x0010, 2) +
            number16(0x0028, 0x0011, 4) + text(0x0028, 0x0030, "DS", "1\\1") +
            number16(0x0028, 0x0100, 8) + number16(0x0028, 0x0101, 8) + number16(0x0028, 0x0102, 7) +
-           number16(0x0028, 0x0103, 0) + element(0x7fe0, 0x0010, "OB", pixels);
+           number16(0x0028, 0x0103, 0) +
+           (jpeg.empty() ? element(0x7fe0, 0x0010, "OB", pixels) : packed());
   }
 
  private:
   static constexpr const char* kCtImage = "1.2.840.10008.5.1.4.1.1.2";
+
+  static constexpr const char* kJpeg = "1.2.840.10008.1.2.4.50";
+
+  /// An empty table of offsets, the fragment, the end.
+  std::string packed() const {
+    const auto item = [](std::uint16_t tag, std::string_view value) {
+      return encoded(std::uint16_t{0xfffe}, false) + encoded(tag, false) +
+             encoded(static_cast<std::uint32_t>(value.size()), false) + std::string{value};
+    };
+    return encoded(std::uint16_t{0x7fe0}, false) + encoded(std::uint16_t{0x0010}, false) + "OB" +
+           std::string(2, '\0') + encoded(std::uint32_t{0xffffffff}, false) + item(0xe000, "") +
+           item(0xe000, jpeg) + item(0xe0dd, "");
+  }
 
   /// `value`: an even number of bytes.
   static std::string element(std::uint16_t group, std::uint16_t tag, std::string_view type,

@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <filesystem>
+#include <fstream>
+
 #include "burin/common/error.hpp"
 #include "dicom_bytes.hpp"
 #include "nifti_bytes.hpp"
@@ -12,6 +15,7 @@
 namespace burin::test {
 namespace {
 
+namespace fs = std::filesystem;
 using testing::HasSubstr;
 
 /// Opens the volume and loads all of it; the error that comes of it.
@@ -95,6 +99,18 @@ TEST_F(VolumeErrors, NrrdHeaders) {
   expectError("huge.nrrd",
               nrrd("type: uint8\ndimension: 3\nsizes: 3000000000 2 2\nencoding: raw", eight),
               {"3000000000 x 2 x 2"});
+  // Longer than the library's messages.
+  const std::string sizes = "\ndimension: 3\nsizes: 2 2 2\nencoding: raw";
+  expectError("long.nrrd", nrrd("type: " + std::string(1100, 'u') + sizes, eight),
+              {"bad NRRD header", "line 2 has 1106 bytes", "at most 512"});
+  expectError("almost.nrrd", nrrd("type: " + std::string(506, 'u') + sizes, eight),
+              {"bad NRRD header", "couldn't parse type"});
+  fs::path folders = folder_.path();
+  for (const char letter : {'a', 'b', 'c', 'd'}) folders /= std::string(200, letter);
+  fs::create_directories(folders);
+  const std::string deep = (folders / "deep.nrrd").string();
+  std::ofstream{deep} << nrrd("type: uchar", eight);
+  expectError(fileChoice(deep), ExitCode::kVolume, {"deep.nrrd", "at most 768 for NRRD"});
   // Found to be wrong when the data have been opened.
   const std::string pairs =
       "type: uint8\ndimension: 4\nsizes: 2 1 2 2\nkinds: RGB-color domain domain domain\n";
@@ -300,6 +316,16 @@ TEST_F(VolumeErrors, DicomTextThatLies) {
   const std::uint64_t before = mostAddresses();
   expectError("lie.dcm", bytes, {"pixels of 0 bits"});
   EXPECT_LT(mostAddresses() - before, std::uint64_t{1} << 30);
+}
+
+// Of some of these DCMTK never comes back.
+TEST_F(VolumeErrors, DicomFramesThatAreNoJpeg) {
+  for (const std::string begin :
+       {"", "\xff\xd0", "\xff\x42", "\xff\xd8\xff\xd0", "\xff\xd8\xff\x42", "\xff\xd8\xff\xd9"}) {
+    DicomBytes slice;
+    slice.jpeg = begin + std::string("\xff\xe0\x00\x10JFIF", 8) + std::string(40, '\0');
+    expectError("no.dcm", slice.bytes(), {"JPEG", "a frame does not begin as JPEG does"});
+  }
 }
 
 TEST_F(VolumeErrors, RawChoices) {
