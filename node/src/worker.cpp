@@ -223,8 +223,10 @@ void Worker::State::measure() {
     survey = options.survey->survey;
     surveyed = options.survey->request;
   } else {
-    surveyed = {surveyed.gradients | needed.gradients, surveyed.laplacian || needed.laplacian};
-    survey = surveyVolume(comm, source, surveyed);
+    const SurveyRequest all{surveyed.gradients | needed.gradients,
+                            surveyed.laplacian || needed.laplacian};
+    survey = surveyVolume(comm, source, all);  // may fail
+    surveyed = all;
   }
   scale = valueScaleOf(source.info().type, survey);
   blocks = VisibleBlocks{survey, scale};
