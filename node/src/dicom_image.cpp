@@ -143,7 +143,11 @@ void readSize(DcmItem& set, DicomImage& image) {
   image.layout.dims =
       checkedDims(image.file.string(), {wholeOf(set, DCM_Columns, 0), wholeOf(set, DCM_Rows, 0),
                                         std::max(wholeOf(set, DCM_NumberOfFrames, 1), 1)});
-  image.layout.components = wholeOf(set, DCM_SamplesPerPixel, 1);
+  const int components = wholeOf(set, DCM_SamplesPerPixel, 1);
+  if (components != 1 && components != 3 && components != 4)  // DICOM PS3.3, C.7.6.3.1.1
+    fail(ExitCode::kVolume, "{}: {} samples per pixel (expected 1, 3 or 4)", image.file.string(),
+         components);
+  image.layout.components = components;
   checkLayout(image.file.string(), image.layout);
   StoredLayout frame = image.layout;
   frame.dims.z = 1;

@@ -17,6 +17,7 @@ struct DicomBytes {
   int number = 1;
   double z = 0;  ///< mm; rows and columns begin at x = y = 0
   std::string pixels = "abcdefgh";
+  std::uint16_t components = 1;
   std::string jpeg;  ///< if there is any: packed, the one fragment of the one frame
 
   std::string bytes() const {
@@ -31,7 +32,7 @@ struct DicomBytes {
            text(0x0008, 0x0060, "CS", "CT") + text(0x0020, 0x000e, "UI", series) +
            text(0x0020, 0x0013, "IS", fmt::format("{}", number)) +
            text(0x0020, 0x0032, "DS", fmt::format("0\\0\\{}", z)) +
-           text(0x0020, 0x0037, "DS", "1\\0\\0\\0\\1\\0") + number16(0x0028, 0x0002, 1) +
+           text(0x0020, 0x0037, "DS", "1\\0\\0\\0\\1\\0") + number16(0x0028, 0x0002, components) +
            text(0x0028, 0x0004, "CS", "MONOCHROME2") + number16(0x0028, 0x0010, 2) +
            number16(0x0028, 0x0011, 4) + text(0x0028, 0x0030, "DS", "1\\1") +
            number16(0x0028, 0x0100, 8) + number16(0x0028, 0x0101, 8) + number16(0x0028, 0x0102, 7) +

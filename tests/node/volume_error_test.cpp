@@ -318,6 +318,15 @@ TEST_F(VolumeErrors, DicomTextThatLies) {
   EXPECT_LT(mostAddresses() - before, std::uint64_t{1} << 30);
 }
 
+TEST_F(VolumeErrors, DicomPixelsOfManySamples) {
+  for (const std::uint16_t components : std::initializer_list<std::uint16_t>{0, 2, 16385}) {
+    DicomBytes slice;
+    slice.components = components;
+    expectError("many.dcm", slice.bytes(),
+                {fmt::format("{} samples per pixel (expected 1, 3 or 4)", components)});
+  }
+}
+
 // Of some of these DCMTK never comes back.
 TEST_F(VolumeErrors, DicomFramesThatAreNoJpeg) {
   for (const std::string begin :
