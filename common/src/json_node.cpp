@@ -23,18 +23,25 @@ class Lines {
       if (text[i] == '\n') starts_.push_back(i + 1);
     }
   }
-  std::string place(std::string_view name, std::size_t offset) const {
+  /// Quick if offsets grow from call to call: columns are counted on from the last one's.
+  std::string place(std::string_view name, std::size_t offset) {
     offset = std::min(offset, text_.size());
     const auto line = std::upper_bound(starts_.begin(), starts_.end(), offset) - 1;
-    const auto column =
-        std::count_if(text_.begin() + static_cast<std::ptrdiff_t>(*line),
-                      text_.begin() + static_cast<std::ptrdiff_t>(offset), startsCharacter);
-    return fmt::format("{}:{}:{}", name, line - starts_.begin() + 1, column + 1);
+    if (*line > last_ || offset < last_) {
+      last_ = *line;
+      column_ = 1;
+    }
+    column_ += std::count_if(text_.begin() + static_cast<std::ptrdiff_t>(last_),
+                             text_.begin() + static_cast<std::ptrdiff_t>(offset), startsCharacter);
+    last_ = offset;
+    return fmt::format("{}:{}:{}", name, line - starts_.begin() + 1, column_);
   }
 
  private:
   std::string_view text_;
   std::vector<std::size_t> starts_{0};
+  std::size_t last_ = 0;       ///< offset asked for last
+  std::ptrdiff_t column_ = 1;  ///< its column
 };
 
 /// Follows the parser through the text, token by token, since its events carry no position. Only
