@@ -79,6 +79,10 @@ Node& descend(Node& parent, const std::string& step, const std::string& path,
 
 }  // namespace
 
+std::vector<std::string> pathOf(std::string_view override) {
+  return steps(override.substr(0, override.find('=')));
+}
+
 void applyOverride(Node& root, std::string_view override) {
   const std::string where = fmt::format("--set {}", override);
   const std::size_t equals = override.find('=');
@@ -88,7 +92,7 @@ void applyOverride(Node& root, std::string_view override) {
   Node value = overrideValue(override.substr(equals + 1), where);
   Node* parent = &root;
   std::string path;
-  const std::vector<std::string> path_steps = steps(override.substr(0, equals));
+  const std::vector<std::string> path_steps = pathOf(override);
   for (std::size_t i = 0; i + 1 < path_steps.size(); ++i) {
     const bool inList = parent->kind == Node::Kind::kList;
     parent = &descend(*parent, path_steps[i], path, where);

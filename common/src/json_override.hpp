@@ -1,6 +1,8 @@
 #pragma once
 
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "json_node.hpp"
 
@@ -11,5 +13,8 @@ namespace burin::json {
 /// removes the key. Missing objects on the way are made, and a list grows by one at its end.
 /// Throws Error{kUsage} naming the override.
 void applyOverride(Node& root, std::string_view override);
+
+/// The keys and numbers of list items on the way to what an override sets.
+std::vector<std::string> pathOf(std::string_view override);
 
 }  // namespace burin::json

@@ -239,6 +239,11 @@ HaloNeighbourhood haloNeighbourhood(const StyleSettings& halo) {
   return {radius, std::max(0.5 * radius, 1.0)};
 }
 
+bool canHaveHalo(const Layer& layer) {
+  return layer.mode == LayerMode::kDvr && layer.labels.empty() &&
+         !layer.transferFunction.isTwoDimensional();
+}
+
 double haloReach(const Scene& scene) {
   double reach = 0;
   for (const Layer& layer : scene.layers)

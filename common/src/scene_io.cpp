@@ -1,6 +1,6 @@
 #include "burin/common/scene.hpp"
-#include "json_override.hpp"
 #include "scene_keys.hpp"
+#include "scene_override.hpp"
 #include "style_file.hpp"
 #include "text_file.hpp"
 #include "transfer_function_file.hpp"
@@ -16,10 +16,8 @@ Scene parseScene(std::string_view text, std::string_view name,
     scene_io::expandColourMaps(root, folder);
   };
   expand();  // before each override, so that it finds the keys of what is named, and after the last
-  for (const std::string& override : overrides) {
-    json::applyOverride(root, override);
-    expand();
-  }
+  for (const std::string& override : overrides)
+    scene_io::applySceneOverride(root, override, expand);
   return scene_io::sceneCodec().read({root, ""});
 }
 

@@ -41,10 +41,11 @@ std::vector<NamedStyle> chosenStyles(const std::vector<std::string>& names) {
   return chosen;
 }
 
-/// The scene with a style on every layer that can have one. How gradients are made stays the
-/// layer's own business unless the style says it.
+/// The scene with a style on every layer that can have one, less the effects that a layer cannot
+/// have. How gradients are made stays the layer's own business unless the style says it.
 Scene inStyle(Scene scene, const NamedStyle& style) {
   constexpr std::string_view kGradient = "gradient";
+  constexpr std::string_view kHalo = "halo";
   for (Layer& layer : scene.layers) {
     if (isProjection(layer.mode)) continue;
     const StyleSettings* own = layer.style(kGradient);
@@ -52,6 +53,13 @@ Scene inStyle(Scene scene, const NamedStyle& style) {
         std::ranges::find(style.effects, kGradient, &StyleSettings::name) != style.effects.end();
     std::vector<StyleSettings> effects = style.effects;
     if (own != nullptr && !isSaid) effects.insert(effects.begin(), *own);
+    if (!canHaveHalo(layer) && std::erase_if(effects, [&](const StyleSettings& effect) {
+                                 return effect.name == kHalo;
+                               }) > 0)
+      note(
+          "style {}: layer {} is drawn without its halo, which lies around a medium of values "
+          "alone",
+          style.name, layer.name.empty() ? "without a name" : fmt::format("\"{}\"", layer.name));
     layer.styles = std::move(effects);
   }
   return scene;

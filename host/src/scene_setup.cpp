@@ -69,12 +69,15 @@ Scene readScene(const Communicator& comm, const RenderOptions& options) {
 }
 
 /// A scene made for a file goes through its own text, so that --set works on it as on any other.
-/// Its quality is the default and not in that text, so that either a step or an error can be set.
+/// Its quality is the default and taken out of that text, so that either a step or an error can be
+/// set.
 Scene parseMadeScene(const Communicator& comm, const std::string& text, const std::string& madeFor,
                      const RenderOptions& options) {
   RenderOptions withoutQuality = options;
   withoutQuality.settings.insert(withoutQuality.settings.begin(), "quality=null");
-  return parseForAll(comm, text, "scene made for " + madeFor, withoutQuality);
+  // Without folders: files that settings name are looked for where the program was started.
+  const std::string name = fs::path{madeFor}.filename().string();
+  return parseForAll(comm, text, "scene made for " + name, withoutQuality);
 }
 
 /// Leaves in `prepared` the survey that the scene is made from, with the gradients that such scenes

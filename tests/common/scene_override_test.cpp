@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -25,6 +26,46 @@ TEST(SceneOverride, ChangesAddsAppendsAndRemoves) {
   EXPECT_EQ(scene.background, (Colour{0x10, 0x20, 0x30}));
   EXPECT_EQ(scene.clip.at(0), (ClipPlane{{1, 0, 0}, 2}));
   EXPECT_EQ(scene.quality.termination, 0);
+}
+
+TEST(SceneOverride, ReplacesWhatCannotStandBesideIt) {
+  const std::string orbit = with(
+      R"("camera": { "azimuth_deg": 10, "elevation_deg": 5, "up": "z" }, "quality": { "step_voxels": 2, "termination": 0 })");
+  const Scene viewed = parseScene(orbit, "s.json", {"camera.view=anterior"});
+  EXPECT_EQ(viewed.camera.view, "anterior");
+  const Scene error = parseScene(orbit, "s.json", {"quality.max_error=0.01"});
+  EXPECT_EQ(error.quality.maxError, 0.01);
+  const Scene step =
+      parseScene(with(R"("quality": { "max_error": 0.01 })"), "s.json", {"quality.step_voxels=2"});
+  EXPECT_FALSE(step.quality.maxError);
+  EXPECT_EQ(step.quality.stepVoxels, 2);
+  const Scene turned = parseScene(with(R"("camera": { "eye": [9, 9, 9], "target": [1, 2, 3] })"),
+                                  "s.json", {"camera.azimuth_deg=40"});
+  EXPECT_FALSE(turned.camera.eye);
+  EXPECT_EQ(turned.camera.azimuthDeg, 40);
+  // But not what was said beside it.
+  EXPECT_THAT(complaint(orbit, {"camera.azimuth_deg=3", "camera.view=left"}),
+              testing::HasSubstr("cannot stand beside 'view'"));
+}
+
+TEST(SceneOverride, StylesByNameLeaveTheLayerItsGradients) {
+  const auto styled = [](const char* style) {
+    return fmt::format(
+        R"({{ "schema_version": 1, "layers": [{{ "transfer_function": {{ "points": [
+            {{ "value": 1, "color": "#fff", "opacity": 1 }}] }}, "style": {} }}] }})",
+        style);
+  };
+  const std::string own = styled(R"({ "gradient": { "noise_floor": 0.1 }, "light": {} })");
+  const Scene toon = parseScene(own, "s.json", {"layers.0.style=toon"});
+  EXPECT_NE(toon.layers[0].style("edges"), nullptr);  // of that style
+  EXPECT_EQ(toon.layers[0].style("gradient")->number("noise_floor"), 0.1);
+  // Sobel, of that style.
+  const Scene carved = parseScene(own, "s.json", {"layers.0.style=carved"});
+  EXPECT_EQ(carved.layers[0].style("gradient")->word("operator"), "sobel");
+  EXPECT_NE(carved.layers[0].style("gradient")->number("noise_floor"), 0.1);
+  // Projections see nothing of what styles go by.
+  const Scene mip = parseScene(own, "s.json", {"layers.0.mode=mip"});
+  EXPECT_TRUE(mip.layers[0].styles.empty());
 }
 
 TEST(SceneOverride, LaterOnesWin) {

@@ -29,7 +29,8 @@ constexpr const char* kGalleryScene = R"({
     "transfer_function": {
       "points": [{"value": 0.3, "color": "#a06040", "opacity": 0},
                  {"value": 0.7, "color": "#fff0e0", "opacity": 0.3}],
-      "opacity_unit_length": 1}}]})";
+      "opacity_unit_length": 1},
+    "style": {"gradient": {"noise_floor": 0.2}}}]})";
 
 struct SheetPicture {
   int width = 0;
@@ -108,6 +109,23 @@ TEST_F(Gallery, AVolumeAloneDrawsEveryStyle) {
   run({"gallery", path("v.nrrd"), "-o", path("sheet.png"), "--size", "16x16", "--quiet"});
   const SheetPicture sheet = readSheet(path("sheet.png"));
   EXPECT_GE((sheet.width - kGap) / (16 + kGap), 4);  // 12 styles or more
+}
+
+// Of "separated", which has halos, surfaces and media by their gradients get the rest.
+TEST_F(Gallery, LayersAreDrawnWithoutTheEffectsThatTheyCannotHave) {
+  std::ofstream{path("modes.json")} << R"({ "schema_version": 1,
+    "volume": {"procedural": "shells", "dims": [12, 12, 12], "type": "f32"},
+    "layers": [
+      {"name": "skin", "mode": "iso", "iso_value": 0.5,
+       "transfer_function": {"points": [{"value": 0, "color": "#fff", "opacity": 1}]}},
+      {"transfer_function": {"widgets": [
+        {"shape": "rectangle", "value": [0.3, 0.7], "color": "#fff", "opacity": 0.2}]}}]})";
+  const auto drawn = runBurin({"gallery", path("modes.json"), "-o", path("sheet.png"), "--styles",
+                               "separated", "--size", "16x16"});
+  EXPECT_EQ(drawn.exitCode, 0) << drawn.err;
+  EXPECT_THAT(drawn.err,
+              AllOf(HasSubstr("style separated: layer \"skin\" is drawn without its halo"),
+                    HasSubstr("layer without a name")));
 }
 
 TEST_F(Gallery, SeveralInputsAreEachDrawnAsTheyAre) {

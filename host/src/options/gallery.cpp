@@ -15,7 +15,7 @@ constexpr int kMostColumns = 100;
 constexpr const char* kGalleryFooter =
     R"(Of one INPUT: every named style (burin styles) on every layer of the scene, with its name below, to
 choose by looking. Then:
-  burin render INPUT --set layers.0.style=NAME -o picture.png
+  burin render INPUT --set layers.0.style=NAME -o picture.png      (and layers.1.style=NAME, …)
 Of several: each as burin render draws it, without annotations; its title or else its name is below.)";
 
 struct Gallery {

@@ -250,6 +250,9 @@ struct HaloNeighbourhood {
 };
 /// `halo`: settings of that style.
 HaloNeighbourhood haloNeighbourhood(const StyleSettings& halo);
+/// Whether a layer can have halos: they lie around a medium of values alone, which is no surface,
+/// not bound to labels and not found by its gradients.
+bool canHaveHalo(const Layer& layer);
 /// How far beyond what its transfer functions show the halos of a scene may show, in smallest
 /// spacings; 0 without halos.
 double haloReach(const Scene& scene);
