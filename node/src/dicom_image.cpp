@@ -7,7 +7,9 @@
 #include <dcmtk/dcmdata/dcsequen.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <fstream>
 #include <limits>
 
 #include "burin/common/error.hpp"
@@ -187,13 +189,27 @@ void checkLength(std::uint32_t bytes, const DicomImage& image) {
        image.file.string(), bytes, image.layout.bytes(), describe(image.layout));
 }
 
+/// Of files with a header of their own, which all are that lie on disks (DICOM PS3.10, 7.1).
+bool hasDicomMagic(const std::filesystem::path& path) {
+  constexpr int kPreamble = 128;
+  std::array<char, 4> magic{};
+  std::ifstream in{path, std::ios::binary};
+  return in.seekg(kPreamble).read(magic.data(), magic.size()) &&
+         std::string_view{magic.data(), magic.size()} == "DICM";
+}
+
 }  // namespace
 
 std::optional<DicomImage> readDicomHeader(const std::filesystem::path& path) {
   DcmFileFormat file;
   const OFCondition loaded = loadDicomFile(path, file);
   DcmDataset& set = *file.getDataset();
-  if (!set.tagExists(DCM_Rows) || !set.tagExists(DCM_Columns)) return std::nullopt;
+  if (!set.tagExists(DCM_Rows) || !set.tagExists(DCM_Columns)) {
+    if (loaded.bad() && hasDicomMagic(path))
+      fail(ExitCode::kVolume, "{}: truncated or damaged: {} bytes found ({})", path.string(),
+           regularFileSize(path), loaded.text());
+    return std::nullopt;
+  }
   DicomImage image;
   image.file = path;
   image.seriesUid = textOf(set, DCM_SeriesInstanceUID);
@@ -208,7 +224,9 @@ std::optional<DicomImage> readDicomHeader(const std::filesystem::path& path) {
          path.string(), regularFileSize(path), describe(image.layout), loaded.text());
   }
   DcmElement* pixels = nullptr;
-  if (set.findAndGetElement(DCM_PixelData, pixels).bad()) return std::nullopt;
+  if (set.findAndGetElement(DCM_PixelData, pixels).bad())
+    fail(ExitCode::kVolume, "{}: truncated or damaged: no pixels (expected {})", path.string(),
+         describe(image.layout));
   checkLength(pixels->getLengthField(), image);
   readPosition(set, image);
   readSpacing(set, image);

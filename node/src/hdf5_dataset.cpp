@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <set>
 #include <span>
+#include <utility>
 
 #include "burin/common/error.hpp"
 #include "stored_voxels.hpp"
@@ -26,6 +28,22 @@ std::vector<std::string> volumesIn(const Hdf5File& file) {
   return found;
 }
 
+/// Whether the file that an external link leads to can be opened without waiting for it.
+herr_t refuseOtherFiles(const char* parent, const char* /*group*/, const char* child,
+                        const char* /*object*/, unsigned* /*flags*/, hid_t /*access*/,
+                        void* /*data*/) {
+  std::error_code error;
+  const auto folder = std::filesystem::path{parent}.parent_path();
+  return std::filesystem::is_regular_file(folder / child, error) ? 0 : -1;
+}
+
+/// How datasets are opened: a link to a FIFO would be waited for, for ever.
+Hdf5PropertyList localLinks() {
+  Hdf5PropertyList access{H5Pcreate(H5P_DATASET_ACCESS)};
+  H5Pset_elink_cb(access.get(), refuseOtherFiles, nullptr);
+  return access;
+}
+
 /// "/a, /b, /c ...": some of them, so that the message stays one line.
 std::string listed(const std::vector<std::string>& paths) {
   constexpr std::size_t kMost = 8;
@@ -33,10 +51,22 @@ std::string listed(const std::vector<std::string>& paths) {
   return fmt::format("{}{}", fmt::join(shown, ", "), paths.size() > kMost ? " ..." : "");
 }
 
-/// Throws unless all files that the dataset refers to are there.
-void checkOtherFiles(const std::string& name, const Hdf5Dataset& dataset) {
+/// A dataset by its file and path.
+using Place = std::pair<std::string, std::string>;
+
+std::string resolvedName(const std::filesystem::path& file) {
+  std::error_code error;
+  const auto name = std::filesystem::canonical(file, error);
+  return error ? file.string() : name.string();
+}
+
+/// Throws unless all files and datasets that the dataset refers to are there. `path`: the virtual
+/// datasets by which it was come to, itself last; HDF5 follows those that lead to themselves until
+/// its stack ends.
+void checkReferences(const std::string& name, const Hdf5Dataset& dataset, std::vector<Place>& path,
+                     std::set<Place>& checked) {
   const Hdf5PropertyList created{H5Dget_create_plist(dataset.get())};
-  const auto folder = std::filesystem::path{name}.parent_path();
+  const auto folder = std::filesystem::path{path.back().first}.parent_path();
   std::array<char, 4096> text{};
   const int externals = H5Pget_external_count(created.get());
   for (int i = 0; i < externals; ++i) {
@@ -49,7 +79,26 @@ void checkOtherFiles(const std::string& name, const Hdf5Dataset& dataset) {
   H5Pget_virtual_count(created.get(), &sources);
   for (std::size_t i = 0; i < sources; ++i) {
     if (H5Pget_virtual_filename(created.get(), i, text.data(), text.size()) < 0) continue;
-    if (std::string_view{text.data()} != ".") checkDataFile(name, folder / text.data());
+    Place source{path.back().first, ""};
+    if (std::string_view{text.data()} != ".") {
+      checkDataFile(name, folder / text.data());
+      source.first = resolvedName(folder / text.data());
+    }
+    if (H5Pget_virtual_dsetname(created.get(), i, text.data(), text.size()) < 0) continue;
+    source.second = text.data();
+    if (!source.second.starts_with('/')) source.second.insert(0, "/");
+    if (std::ranges::find(path, source) != path.end())
+      fail(ExitCode::kVolume, "{}: virtual dataset {} is made of itself", name, source.second);
+    if (!checked.insert(source).second) continue;
+    const Hdf5File file{H5Fopen(source.first.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT)};
+    const Hdf5Dataset found{
+        file.valid() ? H5Dopen2(file.get(), source.second.c_str(), localLinks().get()) : hid_t{-1}};
+    if (!found.valid())
+      fail(ExitCode::kVolume, "{}: no dataset {} in {} (expected as a virtual one is made of it)",
+           name, source.second, source.first);
+    path.push_back(std::move(source));
+    checkReferences(name, found, path, checked);
+    path.pop_back();
   }
 }
 
@@ -81,13 +130,15 @@ Hdf5Dataset openHdf5Dataset(const Hdf5File& file, const Hdf5Name& name) {
     }
     path = volumes.front();
   }
-  Hdf5Dataset dataset{H5Dopen2(file.get(), path.c_str(), H5P_DEFAULT)};
+  Hdf5Dataset dataset{H5Dopen2(file.get(), path.c_str(), localLinks().get())};
   if (!dataset.valid()) {
     const auto volumes = volumesIn(file);
     fail(ExitCode::kVolume, "{}: no dataset {} (expected {})", name.file, path,
          volumes.empty() ? "one with 3 dimensions, and there is none" : listed(volumes));
   }
-  checkOtherFiles(name.file, dataset);
+  std::vector<Place> virtuals{{resolvedName(name.file), path.starts_with('/') ? path : "/" + path}};
+  std::set<Place> checked;
+  checkReferences(name.file, dataset, virtuals, checked);
   return dataset;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <memory>
+#include <span>
 #include <string>
 
 #include "burin/common/error.hpp"
@@ -61,9 +62,12 @@ void checkCandidates(const fs::path& file) {
 /// nifti_2_header.
 template <typename Header>
 void checkHeader(const std::string& file, const Header& header) {
-  if (header.dim[0] < 1 || header.dim[0] > 7 || header.dim[1] < 1) {
-    fail(ExitCode::kVolume, "{}: dim is {}, {} ... (expected 1 to 7 dimensions of at least 1)",
-         file, header.dim[0], header.dim[1]);
+  const auto dims = std::span{header.dim}.subspan(1);
+  if (header.dim[0] < 1 || header.dim[0] > 7 ||
+      std::ranges::any_of(dims.first(static_cast<std::size_t>(header.dim[0])),
+                          [](auto dim) { return dim < 1; })) {
+    fail(ExitCode::kVolume, "{}: dim is {} (expected 1 to 7 dimensions of at least 1 each)", file,
+         fmt::join(header.dim, " "));
   }
   if (header.datatype <= DT_BINARY || nifti_is_valid_datatype(header.datatype) == 0) {
     fail(ExitCode::kVolume, "{}: voxel type {} is not supported (expected {})", file,

@@ -61,7 +61,8 @@ std::size_t ZlibBlockStream::readSome(std::span<std::byte> out) {
   while (done < out.size()) {
     if (blockUsed_ == block_.size()) {
       if (next_ == blocks_.size()) break;
-      unpack(blocks_[next_++]);
+      unpack(blocks_[next_]);
+      ++next_;
     }
     const std::size_t piece = std::min(out.size() - done, block_.size() - blockUsed_);
     std::copy_n(block_.begin() + static_cast<std::ptrdiff_t>(blockUsed_), piece,

@@ -226,11 +226,16 @@ TEST_F(VolumeErrors, NiftiHeadersThatTheLibraryWritesAbout) {
   empty.dim[1] = 0;
   expectError("type.nii", unknownType.bytes(false) + "v", {"voxel type 3", "expected u8"});
   expectError("many.nii", tooMany.bytes(false) + "v", {"dim is 9", "expected 1 to 7"});
-  expectError("none.nii", empty.bytes(false) + "v", {"dim is 3, 0"});
+  expectError("none.nii", empty.bytes(false) + "v", {"dim is 3 0"});
+  for (const std::int16_t dim : std::initializer_list<std::int16_t>{0, -4}) {
+    NiftiBytes flat;
+    flat.dim[2] = dim;
+    expectError("flat.nii", flat.bytes(false) + "v", {"at least 1 each"});
+  }
   for (NiftiBytes* header : {&unknownType, &tooMany, &empty}) header->magic = std::string(4, '\0');
   expectError("old-type.nii", unknownType.bytes(false) + "v", {"voxel type 3", "expected u8"});
   expectError("old-many.nii", tooMany.bytes(true) + "v", {"dim is", "expected 1 to 7"});
-  expectError("old-none.nii", empty.bytes(true) + "v", {"dim is 3, 0"});
+  expectError("old-none.nii", empty.bytes(true) + "v", {"dim is 3 0"});
   std::string second = NiftiBytes{}.bytes(false) + "v";
   second.replace(0, 12, encoded(std::int32_t{540}, false) + std::string{"n+2\0\r\n\032\n", 8});
   expectError("second.nii", second, {"not a valid NIfTI header"});

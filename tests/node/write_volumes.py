@@ -355,11 +355,22 @@ def hdf5(h5py):
         layout = h5py.VirtualLayout(SHAPE, "u1")
         layout[...] = h5py.VirtualSource("absent.h5", "volume", SHAPE)
         odd.create_virtual_dataset("virtual", layout)
+        for name, source in (("loop", (".", "loop")), ("there", (".", "back")),
+                             ("back", ("odd.h5", "there")), ("nothing", ("odd.h5", "nowhere"))):
+            layout = h5py.VirtualLayout(SHAPE, "u1")
+            layout[...] = h5py.VirtualSource(source[0], source[1], SHAPE)
+            odd.create_virtual_dataset(name, layout)
+        odd["fifo"] = h5py.ExternalLink("fifo.h5", "/volume")
+    os.mkfifo(path("fifo.h5"))
     refuse("odd.h5:/text", "not supported", "u8, i8")
     refuse("odd.h5:/five", "2 x 2 x 2 x 2 x 2", "3 dimensions")
     refuse("odd.h5:/outside", "outside.raw", "no such file")
     refuse("odd.h5:/virtual", "absent.h5", "no such file")
     refuse("odd.h5:/empty", "4 x 4 x 0")
+    refuse("odd.h5:/loop", "/loop is made of itself")
+    refuse("odd.h5:/there", "/there is made of itself")
+    refuse("odd.h5:/nothing", "no dataset /nowhere")
+    refuse("odd.h5:/fifo", "no dataset /fifo")
 
 
 @section("pydicom", "pydicom.uid", "pydicom.encaps", "/usr/bin/dcmcrle", "/usr/bin/dcmcjpeg", "/usr/bin/dcmcjpls")
@@ -543,6 +554,10 @@ def dicom(pydicom, uid, _):
     copies("dicom_cut_jpeg", "dicom_dcmcjpeg", range(6))
     cut("dicom_dcmcjpeg/3.dcm", "dicom_cut_jpeg/3.dcm", 0.9)
     refuse("dicom_cut_jpeg", "3.dcm", "truncated")
+    copies("dicom_cut_header", "dicom_u16", range(6))
+    with open(path("dicom_u16/5.dcm"), "rb") as whole, open(path("dicom_cut_header/5.dcm"), "wb") as out:
+        out.write(whole.read()[:300])
+    refuse("dicom_cut_header", "5.dcm", "truncated")
     os.mkdir(path("dicom_empty"))
     refuse("dicom_empty", "without DICOM images")
 
