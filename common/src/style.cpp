@@ -134,7 +134,7 @@ StyleSettings defaultSettings(const StyleSpec& spec) {
 std::string styleHelp() {
   std::string text;
   for (const StyleSpec& style : styleTable()) {
-    text += fmt::format("{:<10}{}\n", style.name, style.help);
+    text += fmt::format("{:<14}{}\n", style.name, style.help);
     for (const ParameterSpec& parameter : style.parameters) {
       text +=
           fmt::format("  {:<16}{} ({})\n", parameter.name, parameter.help, valueHelp(parameter));

@@ -71,7 +71,11 @@ void checkOutputs(const RenderOptions& options) {
   checkWritable(frameFile(options, 0));
   if (!options.stats.empty()) checkWritable(options.stats);
   if (!options.trace.empty()) checkWritable(options.trace);
-  if (!options.saveScene.empty()) checkWritable(options.saveScene);
+  if (options.saveScene.empty()) return;
+  if (!isSceneFile(options.saveScene))
+    fail(ExitCode::kUsage, "{} {}: expected a name that ends in .json", kSaveScene,
+         options.saveScene.string());
+  checkWritable(options.saveScene);
 }
 
 PictureMetadata metadataFor(const Scene& scene, const RenderOptions& options,

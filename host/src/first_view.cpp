@@ -246,7 +246,8 @@ void turnOver(CameraChoice& camera) {
   camera.elevationDeg = camera.elevationDeg - 180;
 }
 
-bool isSliced(const glm::dvec3& spacing) {
+/// As scans are, whose slices are seldom as far apart as their pixels.
+bool isAnisotropic(const glm::dvec3& spacing) {
   constexpr double kDifferent = 1.01;
   const double smallest = std::min({spacing.x, spacing.y, spacing.z});
   return std::max({spacing.x, spacing.y, spacing.z}) > kDifferent * smallest;
@@ -297,7 +298,7 @@ CameraChoice firstView(const Scene& scene, const VolumeFacts& facts,
   Scene viewed = scene;
   CameraChoice& camera = viewed.camera;
   const bool isFlatBox = isFlat(glm::dvec3{facts.grid.cells()} * facts.grid.spacing);
-  const bool isUpZ = facts.anatomical || isFlatBox || isSliced(facts.grid.spacing) ||
+  const bool isUpZ = facts.anatomical || isFlatBox || isAnisotropic(facts.grid.spacing) ||
                      isLeftRightSymmetric(mass) || hasFloorAlongZ(mass);
   camera.upAxis = isUpZ ? "z" : "y";
   const int up = isUpZ ? 2 : 1;

@@ -56,7 +56,7 @@ void loadLabels(const Communicator& comm, BrickSource& labels, const LabelMasks&
     masks.bitsOf(numbers, bits);
     bricks[slab.request].uploadLabels(slab.box, bits);
   };
-  // Each label takes 7 bytes beside its voxel.
+  // A label takes its number and its bits beside its voxel, 6 bytes.
   constexpr std::size_t kLabelsOfSlab = std::size_t{1} << 20;
   readSlabs(comm, labels, boxes, take, kLabelsOfSlab * bytesPerVoxel(labels.info().type));
 }
