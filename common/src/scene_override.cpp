@@ -49,7 +49,8 @@ Node* layerOf(Node& root, const std::vector<std::string>& path) {
 void dropAlternatives(Node& root, const std::vector<std::string>& path) {
   for (const Alternatives& one : alternatives())
     if (path.size() == 2 && path[0] == one.object && path[1] == one.key)
-      if (Node* const object = root.find(one.object); object->find(one.key) != nullptr)
+      if (Node* const object = root.find(one.object);
+          object != nullptr && object->find(one.key) != nullptr)
         drop(*object, one.excluded);
   Node* const layer = layerOf(root, path);
   if (layer == nullptr || path.size() != 3 || path[2] != "mode") return;
