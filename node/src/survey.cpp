@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "burin/common/error.hpp"
+#include "burin/common/memory_check.hpp"
 #include "burin/common/trace.hpp"
 #include "gradient_survey.hpp"
 #include "laplacian_survey.hpp"
@@ -116,6 +117,18 @@ class DerivativeSurveys {
   std::optional<LaplacianSurvey> laplacian_;
 };
 
+/// What is sure to be needed: the ranges of all blocks, and a slice of voxels.
+MemoryNeed needOf(const VolumeInfo& info) {
+  const glm::ivec3& dims = info.grid.dims;
+  const int cells = blockCellsFor(dims);
+  const std::size_t blocks =
+      IndexBox{glm::ivec3{0}, (info.grid.cells() + cells - 1) / cells}.count();
+  const std::size_t slice = IndexBox{glm::ivec3{0}, {dims.x, dims.y, 1}}.count();
+  const std::size_t bytes = 2 * sizeof(float) * blocks + bytesPerVoxel(info.type) * slice;
+  return {static_cast<std::int64_t>(bytes),
+          fmt::format("the survey of {} ({} x {} x {} voxels)", info.name, dims.x, dims.y, dims.z)};
+}
+
 }  // namespace
 
 VolumeSurvey surveyVolume(const Communicator& comm, BrickSource& source,
@@ -127,6 +140,7 @@ VolumeSurvey surveyVolume(const Communicator& comm, BrickSource& source,
   std::unique_ptr<RangeSurvey> ranges;
   DerivativeSurveys derivatives;
   // Room for slices and blocks, of which a large volume needs much.
+  checkMemory(comm, needOf(info));
   collectively(comm, "making room for the survey", [&] {
     ranges = makeRangeSurvey(info);
     derivatives = {request, info, share, -kLargest, kLargest};

@@ -170,7 +170,7 @@ TEST_F(OpenTogether, BrokenDicomFoldersEndOnAllRanksInOneLine) {
   for (const auto& [name, says] : {RefusedFile{"gap", "slices are missing"},
                                    {"mixed", "2 DICOM series"},
                                    {"cut", "truncated"},
-                                   {"damaged", "slices are missing"}}) {
+                                   {"damaged", "1.dcm: truncated or damaged"}}) {
     VolumeChoice choice;
     choice.file = path(name);
     const Error error = saidByAll(choice);

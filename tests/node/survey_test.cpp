@@ -280,6 +280,20 @@ TEST(Survey, EveryType) {
   expectSurvey({grid, randomFloat});
 }
 
+TEST(Survey, MoreBlocksThanThereIsMemoryForAreRefusedWithNumbers) {
+  const auto source =
+      node::makeProcedural("ramp", glm::ivec3{300'000}, VoxelType::kU8, glm::dvec3{1});
+  try {
+    node::surveyVolume(world(), *source, {});
+    ADD_FAILURE() << "taken";
+  } catch (const CollectiveError& error) {
+    EXPECT_NE(std::string_view{error.what()}.find(
+                  "the survey of procedural ramp (300000 x 300000 x 300000 voxels) needs"),
+              std::string_view::npos)
+        << error.what();
+  }
+}
+
 TEST(Survey, BlocksAreAsFineAsTheirNumberAllows) {
   EXPECT_EQ(node::blockCellsFor({1, 1, 1}), 4);
   EXPECT_EQ(node::blockCellsFor({256, 256, 256}), 4);
