@@ -28,19 +28,23 @@ std::vector<std::string> volumesIn(const Hdf5File& file) {
   return found;
 }
 
-/// Whether the file that an external link leads to can be opened without waiting for it.
-herr_t refuseOtherFiles(const char* parent, const char* /*group*/, const char* child,
-                        const char* /*object*/, unsigned* /*flags*/, hid_t /*access*/,
-                        void* /*data*/) {
+/// For H5Pset_elink_cb: negative if where an external link leads, beside its file or from the
+/// working directory, there is something that is no file.
+herr_t refuseSpecialFiles(const char* parent, const char* /*group*/, const char* child,
+                          const char* /*object*/, unsigned* /*flags*/, hid_t /*access*/,
+                          void* /*data*/) {
   std::error_code error;
-  const auto folder = std::filesystem::path{parent}.parent_path();
-  return std::filesystem::is_regular_file(folder / child, error) ? 0 : -1;
+  for (const auto& place :
+       {std::filesystem::path{parent}.parent_path() / child, std::filesystem::path{child}})
+    if (std::filesystem::exists(place, error) && !std::filesystem::is_regular_file(place, error))
+      return -1;
+  return 0;
 }
 
 /// How datasets are opened: a link to a FIFO would be waited for, for ever.
-Hdf5PropertyList localLinks() {
+Hdf5PropertyList checkedLinks() {
   Hdf5PropertyList access{H5Pcreate(H5P_DATASET_ACCESS)};
-  H5Pset_elink_cb(access.get(), refuseOtherFiles, nullptr);
+  H5Pset_elink_cb(access.get(), refuseSpecialFiles, nullptr);
   return access;
 }
 
@@ -66,7 +70,8 @@ std::string resolvedName(const std::filesystem::path& file) {
 void checkReferences(const std::string& name, const Hdf5Dataset& dataset, std::vector<Place>& path,
                      std::set<Place>& checked) {
   const Hdf5PropertyList created{H5Dget_create_plist(dataset.get())};
-  const auto folder = std::filesystem::path{path.back().first}.parent_path();
+  const auto folder =
+      std::filesystem::path{path.size() == 1 ? name : path.back().first}.parent_path();
   std::array<char, 4096> text{};
   const int externals = H5Pget_external_count(created.get());
   for (int i = 0; i < externals; ++i) {
@@ -86,13 +91,15 @@ void checkReferences(const std::string& name, const Hdf5Dataset& dataset, std::v
     }
     if (H5Pget_virtual_dsetname(created.get(), i, text.data(), text.size()) < 0) continue;
     source.second = text.data();
+    if (source.second.find('%') != std::string::npos) continue;  // a pattern of numbered ones
     if (!source.second.starts_with('/')) source.second.insert(0, "/");
     if (std::ranges::find(path, source) != path.end())
       fail(ExitCode::kVolume, "{}: virtual dataset {} is made of itself", name, source.second);
     if (!checked.insert(source).second) continue;
     const Hdf5File file{H5Fopen(source.first.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT)};
-    const Hdf5Dataset found{
-        file.valid() ? H5Dopen2(file.get(), source.second.c_str(), localLinks().get()) : hid_t{-1}};
+    const Hdf5Dataset found{file.valid()
+                                ? H5Dopen2(file.get(), source.second.c_str(), checkedLinks().get())
+                                : hid_t{-1}};
     if (!found.valid())
       fail(ExitCode::kVolume, "{}: no dataset {} in {} (expected as a virtual one is made of it)",
            name, source.second, source.first);
@@ -130,7 +137,7 @@ Hdf5Dataset openHdf5Dataset(const Hdf5File& file, const Hdf5Name& name) {
     }
     path = volumes.front();
   }
-  Hdf5Dataset dataset{H5Dopen2(file.get(), path.c_str(), localLinks().get())};
+  Hdf5Dataset dataset{H5Dopen2(file.get(), path.c_str(), checkedLinks().get())};
   if (!dataset.valid()) {
     const auto volumes = volumesIn(file);
     fail(ExitCode::kVolume, "{}: no dataset {} (expected {})", name.file, path,
